@@ -1,0 +1,3 @@
+//! The `polycube` command.
+
+fn main() {}

@@ -1,0 +1,64 @@
+//! Meshes of triangles, quadrilaterals, tetrahedra or hexahedra, and their boundary.
+
+use nalgebra::Point3;
+
+/// A point in space.
+pub type Point = Point3<f64>;
+
+/// The cells of a mesh, all of one kind. Indices count from 0.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub enum Cells {
+    /// Surface of triangles, counter-clockwise seen from outside.
+    Triangles(Vec<[u32; 3]>),
+    /// Surface of quadrilaterals, counter-clockwise seen from outside.
+    Quads(Vec<[u32; 4]>),
+    /// Volume of tetrahedra: the fourth vertex sees the first three counter-clockwise from their
+    /// other side (VTK's order: positive `det(b - a, c - a, d - a)`).
+    Tetrahedra(Vec<[u32; 4]>),
+    /// Volume of hexahedra in VTK's order: bottom counter-clockwise seen from the top, then the top above it.
+    Hexahedra(Vec<[u32; 8]>),
+}
+
+/// Vertices and cells. A polycube and the shape it was deformed from are two meshes with the same cells.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Mesh {
+    /// Vertex positions.
+    pub points: Vec<Point>,
+    /// Cells over them.
+    pub cells: Cells,
+}
+
+impl Cells {
+    /// Number of cells.
+    pub fn len(&self) -> usize {
+        match self {
+            Self::Triangles(c) => c.len(),
+            Self::Quads(c) => c.len(),
+            Self::Tetrahedra(c) => c.len(),
+            Self::Hexahedra(c) => c.len(),
+        }
+    }
+
+    /// Whether there is no cell.
+    pub fn is_empty(&self) -> bool {
+        self.len() == 0
+    }
+
+    /// The vertices of cell `i`.
+    ///
+    /// # Panics
+    /// When `i` is not below [`len`](Self::len).
+    pub fn cell(&self, i: usize) -> &[u32] {
+        match self {
+            Self::Triangles(c) => &c[i],
+            Self::Quads(c) => &c[i],
+            Self::Tetrahedra(c) => &c[i],
+            Self::Hexahedra(c) => &c[i],
+        }
+    }
+
+    /// Whether the cells fill a volume.
+    pub fn is_volume(&self) -> bool {
+        matches!(self, Self::Tetrahedra(_) | Self::Hexahedra(_))
+    }
+}
