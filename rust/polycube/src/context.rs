@@ -94,10 +94,7 @@ impl Context {
         }
         let now = self.from + (self.to - self.from) * fraction.clamp(0.0, 1.0);
         // Progress is never negative, so the order of the bits is the order of the numbers.
-        let before = self
-            .shared
-            .reported
-            .fetch_max(now.to_bits(), Ordering::Relaxed);
+        let before = self.shared.reported.fetch_max(now.to_bits(), Ordering::Relaxed);
         (self.shared.observer)(&self.stage, now.max(f64::from_bits(before)));
         Ok(())
     }

@@ -84,22 +84,13 @@ fn prefix(place: Option<&Place>) -> String {
 }
 
 fn suffix(remedy: &str) -> String {
-    if remedy.is_empty() {
-        String::new()
-    } else {
-        format!(" ({remedy})")
-    }
+    if remedy.is_empty() { String::new() } else { format!(" ({remedy})") }
 }
 
 impl Error {
     /// An error of `kind` saying `message`, with no place and no remedy yet.
     pub fn new(kind: ErrorKind, message: impl Into<String>) -> Self {
-        Self {
-            kind,
-            place: None,
-            message: message.into(),
-            remedy: String::new(),
-        }
+        Self { kind, place: None, message: message.into(), remedy: String::new() }
     }
 
     /// The same error, naming the element it is about.

@@ -1,5 +1,9 @@
 //! Meshes of triangles, quadrilaterals, tetrahedra or hexahedra, and their boundary.
 
+mod simplices;
+
+pub use simplices::Face;
+
 use nalgebra::Point3;
 
 /// A point in space.

@@ -1,0 +1,264 @@
+//! A structure put in place: where its facets and edges lie, what a ray meets, and where the surface touches itself.
+
+use super::rectangles::rectangles;
+use super::{Edge, Structure};
+use rstar::primitives::{GeomWithData, Rectangle};
+use rstar::{AABB, RTree};
+
+/// A box of the lattice by the levels of its sides; `low` and `high` are equal along an axis where it is flat.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct LevelBox {
+    /// The lower level along X, Y and Z.
+    pub low: [u32; 3],
+    /// The higher level along X, Y and Z.
+    pub high: [u32; 3],
+}
+
+/// Two parts of the surface that touch or cross although they are not neighbours there.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Conflict {
+    /// The facets concerned.
+    pub facets: [u32; 2],
+    /// The two boxes that meet, where the conflict is between boxes.
+    pub boxes: Option<[LevelBox; 2]>,
+    /// A point where they meet.
+    pub point: [f64; 3],
+}
+
+type Item = GeomWithData<Rectangle<[f64; 3]>, u32>;
+
+/// A rectangle of a facet.
+struct Tile {
+    facet: u32,
+    levels: LevelBox,
+}
+
+/// A [`Structure`] under a placement, indexed for spatial queries.
+///
+/// Built in O(n log n) for n edges; a query takes O(log n) and the number of things it meets.
+pub struct Arrangement<'a> {
+    structure: &'a Structure,
+    placement: Vec<f64>,
+    tiles: Vec<Tile>,
+    tile_index: RTree<Item>,
+    edge_index: RTree<Item>,
+    folded: Vec<u32>,
+}
+
+impl<'a> Arrangement<'a> {
+    /// Puts `structure` where `placement` says.
+    pub fn new(structure: &'a Structure, placement: &[f64]) -> Self {
+        // Adding zero turns -0.0 into 0.0, so that equal levels have equal bits.
+        let placement: Vec<f64> = placement.iter().map(|x| x + 0.0).collect();
+        let mut tiles = Vec::new();
+        let mut folded = Vec::new();
+        for (facet, f) in (0..).zip(&structure.facets) {
+            match rectangles(structure, f, &placement) {
+                Some(boxes) => tiles.extend(boxes.into_iter().map(|levels| Tile { facet, levels })),
+                None => folded.push(facet),
+            }
+        }
+        let item = |levels: &LevelBox, i: usize| {
+            let (low, high) = structure.extent(levels, &placement);
+            Item::new(Rectangle::from_corners(low, high), i as u32)
+        };
+        let tile_index = RTree::bulk_load(tiles.iter().enumerate().map(|(i, t)| item(&t.levels, i)).collect());
+        let edges = structure.edges.iter().map(|e| structure.edge_box(e)).enumerate();
+        let edge_index = RTree::bulk_load(edges.map(|(i, b)| item(&b, i)).collect());
+        Self { structure, placement, tiles, tile_index, edge_index, folded }
+    }
+
+    /// The structure put in place.
+    pub fn structure(&self) -> &Structure {
+        self.structure
+    }
+
+    /// The coordinate of every level.
+    pub fn placement(&self) -> &[f64] {
+        &self.placement
+    }
+
+    /// Rectangles that tile the facets: facet, lower and higher corner.
+    pub fn tiles(&self) -> impl Iterator<Item = (u32, [f64; 3], [f64; 3])> + '_ {
+        self.tiles.iter().map(|t| {
+            let (low, high) = self.structure.extent(&t.levels, &self.placement);
+            (t.facet, low, high)
+        })
+    }
+
+    /// Every place where the surface touches or crosses itself, in a fixed order; empty for an embedded surface.
+    ///
+    /// Two facets that meet do so on the border of one of them, so it is enough to look at each edge: it may
+    /// meet another edge only in a common corner, and a facet only along that facet's border.
+    pub fn conflicts(&self) -> Vec<Conflict> {
+        let folded = self.folded.iter().map(|&f| self.folded_facet(f));
+        let edges = (0..).zip(&self.structure.edges);
+        let meetings = edges.flat_map(|(i, edge)| self.edge_conflicts(i, edge));
+        folded.chain(meetings).collect()
+    }
+
+    /// Components of the surface that look the wrong way: solid inside solid, or hollow in the open. By facet.
+    pub fn inside_out(&self) -> Vec<u32> {
+        let component = self.structure.components();
+        let count = component.iter().max().map_or(0, |c| c + 1);
+        (0..count).filter_map(|c| self.misplaced(c, &component)).collect()
+    }
+
+    /// Whether `point` lies inside or on the polycube.
+    pub fn contains(&self, point: [f64; 3]) -> bool {
+        let on_surface = self.tile_index.locate_in_envelope_intersecting(AABB::from_point(point)).next().is_some();
+        on_surface || self.winding(point, |_| true) != 0
+    }
+
+    /// The closest facet that the ray from `point` along `axis` (upwards or downwards) meets beyond `point`:
+    /// the facet, and the levels that bound it around the place where it is hit.
+    pub fn first_hit(&self, point: [f64; 3], axis: usize, upwards: bool) -> Option<(u32, LevelBox)> {
+        let sign = if upwards { 1.0 } else { -1.0 };
+        let distance = |t: &Tile| sign * (self.placement[t.levels.low[axis] as usize] - point[axis]);
+        let faces = |t: &Tile| self.structure.facets[t.facet as usize].label.axis() == axis;
+        let along = self.ray(point, axis, upwards).filter(|t| faces(t) && distance(t) > 0.0);
+        let nearest = along.min_by(|a, b| distance(a).total_cmp(&distance(b)).then(a.facet.cmp(&b.facet)))?;
+        Some((nearest.facet, self.clearance(nearest.facet, point)))
+    }
+
+    fn ray(&self, point: [f64; 3], axis: usize, upwards: bool) -> impl Iterator<Item = &Tile> {
+        let (mut low, mut high) = (point, point);
+        if upwards {
+            high[axis] = f64::MAX;
+        } else {
+            low[axis] = f64::MIN;
+        }
+        let envelope = AABB::from_corners(low, high);
+        let items: Vec<u32> = self.tile_index.locate_in_envelope_intersecting(envelope).map(|i| i.data).collect();
+        items.into_iter().map(|i| &self.tiles[i as usize])
+    }
+
+    /// The levels of the sides of `facet` nearest to `point` in the four directions of its plane.
+    fn clearance(&self, facet: u32, point: [f64; 3]) -> LevelBox {
+        let f = &self.structure.facets[facet as usize];
+        let axis = f.label.axis();
+        let (mut low, mut high) = ([f.level; 3], [f.level; 3]);
+        let mut nearest = [[f64::INFINITY; 2]; 3];
+        for side in f.sides() {
+            let edge = &self.structure.edges[side.edge as usize];
+            let across = 3 - axis - edge.axis;
+            let levels = self.structure.edge_box(edge);
+            let (from, to) = self.structure.extent(&levels, &self.placement);
+            let offset = from[across] - point[across];
+            if point[edge.axis] < from[edge.axis] || point[edge.axis] > to[edge.axis] {
+                continue;
+            }
+            if offset >= 0.0 && offset < nearest[across][1] {
+                nearest[across][1] = offset;
+                high[across] = levels.low[across];
+            }
+            if offset <= 0.0 && -offset < nearest[across][0] {
+                nearest[across][0] = -offset;
+                low[across] = levels.low[across];
+            }
+        }
+        LevelBox { low, high }
+    }
+
+    /// How often the surface of the facets `chosen` winds around `point`, which must not lie on it. Where the ray
+    /// runs along a tile's border the point counts as a little further up along Y and Z.
+    fn winding(&self, point: [f64; 3], chosen: impl Fn(u32) -> bool) -> i32 {
+        let crossed = |t: &&Tile| {
+            let (low, high) = self.structure.extent(&t.levels, &self.placement);
+            let within = |a: usize| low[a] <= point[a] && point[a] < high[a];
+            self.structure.facets[t.facet as usize].label.axis() == 0 && within(1) && within(2) && chosen(t.facet)
+        };
+        let sign = |t: &Tile| i32::from(self.structure.facets[t.facet as usize].label.sign());
+        self.ray(point, 0, true).filter(crossed).map(sign).sum()
+    }
+
+    /// A facet of component `c` if that component's solid side and its surroundings do not fit.
+    fn misplaced(&self, c: u32, component: &[u32]) -> Option<u32> {
+        let tiles = || self.tiles.iter().filter(|t| component[t.facet as usize] == c);
+        let volume: f64 = tiles().map(|t| self.signed_volume(t)).sum();
+        let tile = tiles().next()?;
+        let (low, high) = self.structure.extent(&tile.levels, &self.placement);
+        let centre = std::array::from_fn(|a| f64::midpoint(low[a], high[a]));
+        let around = self.winding(centre, |f| component[f as usize] != c);
+        (around != i32::from(volume < 0.0)).then_some(tile.facet)
+    }
+
+    /// The tile's part of the volume by the divergence theorem, along X.
+    fn signed_volume(&self, tile: &Tile) -> f64 {
+        let label = self.structure.facets[tile.facet as usize].label;
+        let (low, high) = self.structure.extent(&tile.levels, &self.placement);
+        if label.axis() == 0 { f64::from(label.sign()) * low[0] * (high[1] - low[1]) * (high[2] - low[2]) } else { 0.0 }
+    }
+
+    fn folded_facet(&self, facet: u32) -> Conflict {
+        let side = self.structure.facets[facet as usize].loops[0][0];
+        let corner = self.structure.edges[side.edge as usize].corners[0];
+        Conflict { facets: [facet; 2], boxes: None, point: self.structure.position(corner, &self.placement) }
+    }
+
+    fn edge_conflicts(&self, i: u32, edge: &Edge) -> Vec<Conflict> {
+        let levels = self.structure.edge_box(edge);
+        let (low, high) = self.structure.extent(&levels, &self.placement);
+        let envelope = AABB::from_corners(low, high);
+        let sorted = |tree: &RTree<Item>| {
+            let mut found: Vec<u32> = tree.locate_in_envelope_intersecting(envelope).map(|i| i.data).collect();
+            found.sort_unstable();
+            found
+        };
+        let edges =
+            sorted(&self.edge_index).into_iter().filter(|&j| j > i).filter_map(|j| self.edge_meets_edge(edge, j));
+        let tiles = sorted(&self.tile_index).into_iter().filter_map(|t| self.edge_meets_tile(edge, t));
+        edges.chain(tiles).collect()
+    }
+
+    /// Edges may meet in a common corner only.
+    fn edge_meets_edge(&self, edge: &Edge, other: u32) -> Option<Conflict> {
+        let other = &self.structure.edges[other as usize];
+        let boxes = [self.structure.edge_box(edge), self.structure.edge_box(other)];
+        let (low, high) = self.intersection(&boxes)?;
+        let common = edge.corners.iter().find(|c| other.corners.contains(c));
+        let at_corner = common.is_some_and(|&c| self.structure.position(c, &self.placement) == low);
+        (low != high || !at_corner).then(|| Conflict {
+            facets: [edge.facets[0], other.facets[0]],
+            boxes: Some(boxes),
+            point: low,
+        })
+    }
+
+    /// An edge may meet a facet along their common border, or in a corner that the facet has too.
+    fn edge_meets_tile(&self, edge: &Edge, tile: u32) -> Option<Conflict> {
+        let tile = &self.tiles[tile as usize];
+        let boxes = [self.structure.edge_box(edge), tile.levels];
+        let (low, high) = self.intersection(&boxes)?;
+        let allowed = if low == high { self.is_shared_corner(edge, tile, low) } else { self.is_border(edge, tile) };
+        (!allowed).then(|| Conflict { facets: [edge.facets[0], tile.facet], boxes: Some(boxes), point: low })
+    }
+
+    fn is_shared_corner(&self, edge: &Edge, tile: &Tile, point: [f64; 3]) -> bool {
+        let facet = &self.structure.facets[tile.facet as usize];
+        let end = edge.corners.into_iter().find(|&c| self.structure.position(c, &self.placement) == point);
+        end.is_some_and(|c| facet.sides().any(|s| self.structure.edges[s.edge as usize].corners.contains(&c)))
+    }
+
+    /// Whether the tile lies on its facet's side of the edge, which bounds that facet.
+    fn is_border(&self, edge: &Edge, tile: &Tile) -> bool {
+        let label = self.structure.facets[tile.facet as usize].label;
+        let Some(side) = edge.facets.iter().position(|&f| f == tile.facet) else { return false };
+        let across = 3 - label.axis() - edge.axis;
+        // The facet is left of an upward edge if it is the edge's first; left is `normal × direction`.
+        let cyclic = (label.axis() + 1) % 3 == edge.axis;
+        let left = if cyclic { label.sign() } else { -label.sign() };
+        let upward = (left > 0) == (side == 0);
+        let levels = &tile.levels;
+        let at = |l: u32| self.placement[l as usize];
+        let line = at(self.structure.edge_box(edge).low[across]);
+        if upward { at(levels.low[across]) == line } else { at(levels.high[across]) == line }
+    }
+
+    fn intersection(&self, boxes: &[LevelBox; 2]) -> Option<([f64; 3], [f64; 3])> {
+        let [(a, b), (c, d)] = boxes.map(|levels| self.structure.extent(&levels, &self.placement));
+        let low: [f64; 3] = std::array::from_fn(|k| a[k].max(c[k]));
+        let high: [f64; 3] = std::array::from_fn(|k| b[k].min(d[k]));
+        (0..3).all(|k| low[k] <= high[k]).then_some((low, high))
+    }
+}

@@ -1,0 +1,409 @@
+//! From labelled faces to charts, corners, edges, facets and levels.
+
+use super::label::Label;
+use super::polycube::{Deviation, Polycube, Tolerance};
+use super::{Corner, Edge, Facet, HalfEdge, Level, Placement, Side, Structure, Surface, Violation};
+use crate::mesh::Point;
+
+/// Connected sets of faces with one label.
+pub(super) struct Charts {
+    of_face: Vec<u32>,
+    labels: Vec<Label>,
+}
+
+impl Charts {
+    /// Floods the faces label by label; charts are numbered by their first faces.
+    pub(super) fn new(surface: &Surface, labels: Vec<Label>) -> Result<Self, Vec<Violation>> {
+        let mut charts = Self { of_face: vec![u32::MAX; labels.len()], labels: Vec::new() };
+        for seed in 0..labels.len() {
+            if charts.of_face[seed] == u32::MAX {
+                charts.flood(surface, &labels, seed);
+            }
+        }
+        let opposite = |&h: &HalfEdge| charts.label(surface, h) == charts.label(surface, surface.twin(h)).opposite();
+        let once = surface.half_edges().filter(|&h| h < surface.twin(h)).filter(opposite);
+        let edge = |h| [surface.start(h), surface.end(h)];
+        let violations: Vec<_> = once.map(|h| Violation::OppositeCharts { edge: edge(h) }).collect();
+        if violations.is_empty() { charts.check_genus(surface) } else { Err(violations) }
+    }
+
+    fn flood(&mut self, surface: &Surface, labels: &[Label], seed: usize) {
+        let chart = self.labels.len() as u32;
+        self.labels.push(labels[seed]);
+        self.of_face[seed] = chart;
+        let mut stack = vec![seed];
+        while let Some(face) = stack.pop() {
+            for side in 0..surface.faces()[face].vertices().len() {
+                let other = surface.face(surface.twin((4 * face + side) as HalfEdge));
+                if self.of_face[other] == u32::MAX && labels[other] == labels[seed] {
+                    self.of_face[other] = chart;
+                    stack.push(other);
+                }
+            }
+        }
+    }
+
+    /// The chart to the left of `h`.
+    fn left(&self, surface: &Surface, h: HalfEdge) -> u32 {
+        self.of_face[surface.face(h)]
+    }
+
+    fn label(&self, surface: &Surface, h: HalfEdge) -> Label {
+        self.labels[self.left(surface, h) as usize]
+    }
+
+    fn is_border(&self, surface: &Surface, h: HalfEdge) -> bool {
+        self.left(surface, h) != self.left(surface, surface.twin(h))
+    }
+
+    /// The border half-edge of the same chart that follows the border half-edge `h`.
+    fn next_border(&self, surface: &Surface, h: HalfEdge) -> HalfEdge {
+        let mut next = surface.next(h);
+        while !self.is_border(surface, next) {
+            next = surface.next(surface.twin(next));
+        }
+        next
+    }
+
+    /// A flat chart is a disc with holes: its Euler number and its boundary loops must agree.
+    fn check_genus(self, surface: &Surface) -> Result<Self, Vec<Violation>> {
+        let mut euler = vec![0_i64; self.labels.len()];
+        let mut first = vec![u32::MAX; self.labels.len()];
+        for (face, &chart) in (0..).zip(&self.of_face) {
+            euler[chart as usize] += 1;
+            first[chart as usize] = first[chart as usize].min(face);
+        }
+        let inner = |h: &HalfEdge| !self.is_border(surface, *h);
+        for h in surface.half_edges().filter(|&h| h < surface.twin(h)).filter(inner) {
+            euler[self.left(surface, h) as usize] -= 1;
+        }
+        for vertex in 0..surface.vertex_count() as u32 {
+            if let Some(h) = surface.fan(vertex).next()
+                && surface.fan(vertex).all(|h| inner(&h))
+            {
+                euler[self.left(surface, h) as usize] += 1;
+            }
+        }
+        for (chart, loops) in self.border_loops(surface) {
+            euler[chart as usize] += i64::from(loops > 0);
+        }
+        let handles = (0..).zip(&euler).filter(|(_, e)| **e != 2);
+        let violations: Vec<_> =
+            handles.map(|(c, _): (usize, _)| Violation::ChartWithHandle { face: first[c] }).collect();
+        if violations.is_empty() { Ok(self) } else { Err(violations) }
+    }
+
+    /// Every border loop: its chart and its length in mesh edges.
+    fn border_loops(&self, surface: &Surface) -> Vec<(u32, usize)> {
+        let mut seen = vec![false; 4 * surface.faces().len()];
+        let mut loops = Vec::new();
+        for first in surface.half_edges().filter(|&h| self.is_border(surface, h)) {
+            let mut length = 0;
+            let mut h = first;
+            while !std::mem::replace(&mut seen[h as usize], true) {
+                length += 1;
+                h = self.next_border(surface, h);
+            }
+            if length > 0 {
+                loops.push((self.left(surface, first), length));
+            }
+        }
+        loops
+    }
+}
+
+/// A side of a chart between two corners: its half-edges in the order in which the chart's boundary passes them.
+struct Chain {
+    half_edges: Vec<HalfEdge>,
+    /// The next side of the same chart.
+    next: usize,
+}
+
+/// The corners and the chains between them.
+pub(super) struct Skeleton {
+    corners: Vec<u32>,
+    chains: Vec<Chain>,
+    /// The chain that a half-edge starts, if it leaves a corner.
+    starts: Vec<u32>,
+}
+
+impl Skeleton {
+    /// Finds corners and follows the borders between them.
+    pub(super) fn new(surface: &Surface, charts: &Charts) -> Result<Self, Vec<Violation>> {
+        let borders = |v: u32| surface.fan(v).filter(|&h| charts.is_border(surface, h)).count();
+        let corners: Vec<u32> = (0..surface.vertex_count() as u32).filter(|&v| borders(v) >= 3).collect();
+        let incomplete = |v: &&u32| {
+            let axes = surface.fan(**v).fold(0, |m, h| m | 1 << charts.label(surface, h).axis());
+            axes != 0b111
+        };
+        let violations: Vec<_> =
+            corners.iter().filter(incomplete).map(|&vertex| Violation::IncompleteCorner { vertex }).collect();
+        if !violations.is_empty() {
+            return Err(violations);
+        }
+        let mut skeleton = Self { corners, chains: Vec::new(), starts: vec![u32::MAX; 4 * surface.faces().len()] };
+        skeleton.trace(surface, charts);
+        let violations = skeleton.short_loops(surface, charts);
+        if violations.is_empty() { Ok(skeleton) } else { Err(violations) }
+    }
+
+    fn trace(&mut self, surface: &Surface, charts: &Charts) {
+        let mut is_corner = vec![false; surface.vertex_count()];
+        self.corners.iter().for_each(|&v| is_corner[v as usize] = true);
+        let leaving =
+            surface.half_edges().filter(|&h| charts.is_border(surface, h) && is_corner[surface.start(h) as usize]);
+        let mut following = Vec::new();
+        for first in leaving {
+            let mut half_edges = vec![first];
+            let mut next = charts.next_border(surface, first);
+            while !is_corner[surface.start(next) as usize] {
+                half_edges.push(next);
+                next = charts.next_border(surface, next);
+            }
+            self.starts[first as usize] = self.chains.len() as u32;
+            self.chains.push(Chain { half_edges, next: 0 });
+            following.push(next);
+        }
+        for (chain, next) in self.chains.iter_mut().zip(following) {
+            chain.next = self.starts[next as usize] as usize;
+        }
+    }
+
+    /// Boundary loops with fewer than four corners. A loop without corners is found by its half-edges.
+    fn short_loops(&self, surface: &Surface, charts: &Charts) -> Vec<Violation> {
+        let mut on_chain = vec![false; 4 * surface.faces().len()];
+        self.chains.iter().flat_map(|c| &c.half_edges).for_each(|&h| on_chain[h as usize] = true);
+        let mut violations: Vec<_> = self
+            .loops()
+            .into_iter()
+            .filter(|l| l.len() < 4)
+            .map(|l| {
+                let face = surface.face(self.chains[l[0]].half_edges[0]) as u32;
+                Violation::TooFewCorners { face, corners: l.len() }
+            })
+            .collect();
+        for first in surface.half_edges().filter(|&h| charts.is_border(surface, h)) {
+            let mut h = first;
+            let mut fresh = false;
+            while !std::mem::replace(&mut on_chain[h as usize], true) {
+                fresh = true;
+                h = charts.next_border(surface, h);
+            }
+            if fresh {
+                violations.push(Violation::TooFewCorners { face: surface.face(first) as u32, corners: 0 });
+            }
+        }
+        violations
+    }
+
+    /// The chains of every boundary loop.
+    fn loops(&self) -> Vec<Vec<usize>> {
+        let mut seen = vec![false; self.chains.len()];
+        let mut loops = Vec::new();
+        for first in 0..self.chains.len() {
+            let mut chains = Vec::new();
+            let mut c = first;
+            while !std::mem::replace(&mut seen[c], true) {
+                chains.push(c);
+                c = self.chains[c].next;
+            }
+            if !chains.is_empty() {
+                loops.push(chains);
+            }
+        }
+        loops
+    }
+
+    /// Gives every chart its level and every chain its direction.
+    pub(super) fn into_polycube(
+        self,
+        points: &[Point],
+        surface: Surface,
+        charts: Charts,
+        degrees: f64,
+        tolerance: &Tolerance,
+    ) -> Result<Polycube, Vec<Violation>> {
+        let diagonal = diagonal(points);
+        let (level_of, levels) = self.levels(&surface, &charts);
+        let placement = place(points, &surface, &charts, &level_of, &levels, tolerance.merge * diagonal);
+        let vertex_levels = vertex_levels(&surface, &charts, &level_of, points.len());
+        let distance = off_level(points, &vertex_levels, &placement, tolerance.distance * diagonal)?;
+        let corners = self.corner_list(&surface, &charts, &vertex_levels);
+        let (edges, chains, sides) = self.edges(points, &surface, &charts, &vertex_levels, &placement)?;
+        let mut facets: Vec<Facet> = charts
+            .labels
+            .iter()
+            .zip(&level_of)
+            .map(|(&label, &level)| Facet { label, level, loops: Vec::new() })
+            .collect();
+        for chain_loop in self.loops() {
+            let chart = charts.left(&surface, self.chains[chain_loop[0]].half_edges[0]);
+            facets[chart as usize].loops.push(chain_loop.into_iter().map(|c| sides[c]).collect());
+        }
+        let mut structure = Structure { facets, edges, corners, levels };
+        structure.count_corners();
+        Ok(Polycube {
+            structure,
+            placement,
+            surface,
+            facet_of_face: charts.of_face,
+            chains,
+            vertex_levels,
+            deviation: Deviation { degrees, distance },
+        })
+    }
+
+    /// The level of every chart: charts of one axis that share a corner share it.
+    fn levels(&self, surface: &Surface, charts: &Charts) -> (Vec<u32>, Vec<Level>) {
+        let mut merged = petgraph::unionfind::UnionFind::<u32>::new(charts.labels.len());
+        for &corner in &self.corners {
+            let mut first = [None; 3];
+            for h in surface.fan(corner) {
+                let chart = charts.left(surface, h);
+                let axis = charts.labels[chart as usize].axis();
+                merged.union(*first[axis].get_or_insert(chart), chart);
+            }
+        }
+        let mut level_of = vec![u32::MAX; charts.labels.len()];
+        let mut levels = Vec::new();
+        for axis in 0..3 {
+            for chart in (0..charts.labels.len()).filter(|&c| charts.labels[c].axis() == axis) {
+                let root = merged.find(chart as u32) as usize;
+                if level_of[root] == u32::MAX {
+                    level_of[root] = levels.len() as u32;
+                    levels.push(Level { axis, corners: 0 });
+                }
+                level_of[chart] = level_of[root];
+            }
+        }
+        (level_of, levels)
+    }
+
+    fn corner_list(&self, surface: &Surface, charts: &Charts, levels: &[[Option<u32>; 3]]) -> Vec<Corner> {
+        let corner = |&vertex: &u32| Corner {
+            vertex,
+            valence: surface.fan(vertex).filter(|&h| charts.is_border(surface, h)).count() as u32,
+            levels: levels[vertex as usize].map(|l| l.unwrap_or(0)),
+        };
+        self.corners.iter().map(corner).collect()
+    }
+
+    /// The edges, their vertices, and for every chain the side it is.
+    #[expect(clippy::type_complexity, reason = "three parallel results of one pass")]
+    fn edges(
+        &self,
+        points: &[Point],
+        surface: &Surface,
+        charts: &Charts,
+        vertex_levels: &[[Option<u32>; 3]],
+        placement: &[f64],
+    ) -> Result<(Vec<Edge>, Vec<Vec<u32>>, Vec<Side>), Vec<Violation>> {
+        let mut sides = vec![Side { edge: u32::MAX, forward: true }; self.chains.len()];
+        let (mut edges, mut vertices, mut violations) = (Vec::new(), Vec::new(), Vec::new());
+        for (c, chain) in self.chains.iter().enumerate() {
+            if sides[c].edge != u32::MAX {
+                continue;
+            }
+            let (first, last) = (chain.half_edges[0], chain.half_edges[chain.half_edges.len() - 1]);
+            let twin = self.starts[surface.twin(last) as usize] as usize;
+            let axis = 3 - charts.label(surface, first).axis() - charts.label(surface, surface.twin(first)).axis();
+            let ends = [surface.start(first), surface.end(last)];
+            let [from, to] = ends.map(|v| vertex_levels[v as usize][axis].map_or(0.0, |l| placement[l as usize]));
+            if from == to {
+                violations.push(Violation::ZeroLengthEdge { ends });
+            }
+            let forward = from < to;
+            sides[c] = Side { edge: edges.len() as u32, forward };
+            sides[twin] = Side { edge: edges.len() as u32, forward: !forward };
+            let mut along: Vec<u32> = chain.half_edges.iter().map(|&h| surface.start(h)).collect();
+            along.push(ends[1]);
+            let mut facets = [charts.left(surface, first), charts.left(surface, surface.twin(first))];
+            if !forward {
+                along.reverse();
+                facets.reverse();
+            }
+            violations.extend(turns_back(points, &along, axis));
+            let corner = |v: u32| self.corners.partition_point(|&c| c < v) as u32;
+            edges.push(Edge { axis, corners: [corner(along[0]), corner(along[along.len() - 1])], facets });
+            vertices.push(along);
+        }
+        if violations.is_empty() { Ok((edges, vertices, sides)) } else { Err(violations) }
+    }
+}
+
+impl Structure {
+    fn count_corners(&mut self) {
+        for corner in &self.corners {
+            for level in corner.levels {
+                self.levels[level as usize].corners += 1;
+            }
+        }
+    }
+}
+
+fn diagonal(points: &[Point]) -> f64 {
+    let low = points.iter().fold(Point::from([f64::INFINITY; 3]), |m, p| m.inf(p));
+    let high = points.iter().fold(Point::from([f64::NEG_INFINITY; 3]), |m, p| m.sup(p));
+    (high - low).norm()
+}
+
+/// The level of every vertex along every axis: that of the charts around it.
+fn vertex_levels(surface: &Surface, charts: &Charts, level_of: &[u32], vertices: usize) -> Vec<[Option<u32>; 3]> {
+    let mut levels = vec![[None; 3]; vertices];
+    for h in surface.half_edges() {
+        let chart = charts.left(surface, h) as usize;
+        levels[surface.start(h) as usize][charts.labels[chart].axis()] = Some(level_of[chart]);
+    }
+    levels
+}
+
+/// Where each level lies: half way between the extremes of its vertices, which is exact for flat charts.
+/// Levels of one axis that differ by less than `merge` become equal.
+fn place(
+    points: &[Point],
+    surface: &Surface,
+    charts: &Charts,
+    level_of: &[u32],
+    levels: &[Level],
+    merge: f64,
+) -> Placement {
+    let mut range = vec![(f64::INFINITY, f64::NEG_INFINITY); levels.len()];
+    for h in surface.half_edges() {
+        let level = level_of[charts.left(surface, h) as usize] as usize;
+        let x = points[surface.start(h) as usize][levels[level].axis];
+        range[level] = (range[level].0.min(x), range[level].1.max(x));
+    }
+    let mut placement: Placement = range.iter().map(|r| f64::midpoint(r.0, r.1)).collect();
+    let mut order: Vec<usize> = (0..levels.len()).collect();
+    order.sort_by(|&a, &b| levels[a].axis.cmp(&levels[b].axis).then(placement[a].total_cmp(&placement[b])));
+    for pair in order.windows(2) {
+        if levels[pair[0]].axis == levels[pair[1]].axis && placement[pair[1]] - placement[pair[0]] <= merge {
+            placement[pair[1]] = placement[pair[0]];
+        }
+    }
+    placement
+}
+
+fn off_level(
+    points: &[Point],
+    vertex_levels: &[[Option<u32>; 3]],
+    placement: &[f64],
+    tolerance: f64,
+) -> Result<f64, Vec<Violation>> {
+    let off = |(p, levels): (&Point, &[Option<u32>; 3])| {
+        let along = |a: usize| levels[a].map_or(0.0, |l| (p[a] - placement[l as usize]).abs());
+        along(0).max(along(1)).max(along(2))
+    };
+    let distances: Vec<f64> = points.iter().zip(vertex_levels).map(off).collect();
+    let beyond = (0..).zip(&distances).filter(|(_, d)| **d > tolerance);
+    let violations: Vec<_> = beyond.map(|(vertex, &distance)| Violation::OffLevel { vertex, distance }).collect();
+    if violations.is_empty() { Ok(distances.into_iter().fold(0.0, f64::max)) } else { Err(violations) }
+}
+
+/// The mesh edges of a chain that go down along `axis`, by more than rounding.
+fn turns_back(points: &[Point], along: &[u32], axis: usize) -> Vec<Violation> {
+    let at = |v: u32| points[v as usize][axis];
+    let slack = 1e-9 * (at(along[along.len() - 1]) - at(along[0])).abs();
+    let back = along.windows(2).filter(|w| at(w[1]) < at(w[0]) - slack);
+    back.map(|w| Violation::NonMonotoneEdge { edge: [w[0], w[1]] }).collect()
+}

@@ -1,0 +1,60 @@
+//! Labels: which of the six axis directions a boundary face looks at.
+
+use crate::mesh::{Face, Point};
+use nalgebra::Vector3;
+
+/// One of +X −X +Y −Y +Z −Z, numbered 0 to 5 as in the label files of this field.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash, serde::Serialize)]
+#[serde(transparent)]
+pub struct Label(u8);
+
+impl Label {
+    /// The label numbered `index`, if that is one of 0 to 5.
+    pub fn new(index: i8) -> Option<Self> {
+        (0..6).contains(&index).then_some(Self(index as u8))
+    }
+
+    /// The label whose direction is closest to `normal`, and the cosine of the angle between them.
+    /// Of several equally close ones the first in the order of the labels.
+    pub fn nearest(normal: &Vector3<f64>) -> (Self, f64) {
+        let axis = normal.iamax();
+        let label = Self((2 * axis) as u8 + u8::from(normal[axis] < 0.0));
+        (label, normal[axis].abs() / normal.norm())
+    }
+
+    /// 0 to 5.
+    pub fn index(self) -> usize {
+        usize::from(self.0)
+    }
+
+    /// 0, 1 or 2 for X, Y or Z.
+    pub fn axis(self) -> usize {
+        self.index() / 2
+    }
+
+    /// +1 or −1 along [`axis`](Self::axis).
+    pub fn sign(self) -> i8 {
+        if self.0 % 2 == 0 { 1 } else { -1 }
+    }
+
+    /// The label that looks the other way.
+    #[must_use]
+    pub fn opposite(self) -> Self {
+        Self(self.0 ^ 1)
+    }
+}
+
+impl std::fmt::Display for Label {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        f.write_str(["+X", "-X", "+Y", "-Y", "+Z", "-Z"][self.index()])
+    }
+}
+
+/// Twice the area vector of a face: its length is twice the area, its direction the outward normal.
+pub fn area_vector(points: &[Point], face: &Face) -> Vector3<f64> {
+    let at = |v: u32| points[v as usize];
+    match *face {
+        Face::Triangle([a, b, c]) => (at(b) - at(a)).cross(&(at(c) - at(a))),
+        Face::Quad([a, b, c, d]) => (at(c) - at(a)).cross(&(at(d) - at(b))),
+    }
+}

@@ -1,0 +1,159 @@
+//! A mesh read as a polycube: its structure, and what of the structure each face and vertex belongs to.
+
+use super::extract::{Charts, Skeleton};
+use super::label::{Label, area_vector};
+use super::{Arrangement, Conflict, Placement, Structure, Surface, Violation};
+use crate::mesh::{Face, Mesh, Point};
+
+/// How far a mesh may be from a polycube and still be read as one.
+#[derive(Clone, Copy, Debug, PartialEq, serde::Serialize)]
+pub struct Tolerance {
+    /// Largest angle between a face and the nearest axis, in degrees; 0 to 45.
+    pub degrees: f64,
+    /// Largest distance of a vertex from the plane of its chart, as a fraction of the bounding box's diagonal.
+    pub distance: f64,
+    /// Levels closer than this fraction of the bounding box's diagonal are taken to be equal.
+    pub merge: f64,
+}
+
+impl Default for Tolerance {
+    fn default() -> Self {
+        Self { degrees: 30.0, distance: 0.05, merge: 1e-6 }
+    }
+}
+
+/// How far the mesh is from a polycube.
+#[derive(Clone, Copy, Debug, Default, PartialEq, serde::Serialize)]
+pub struct Deviation {
+    /// Largest angle between a face and the axis of its label, in degrees.
+    pub degrees: f64,
+    /// Largest distance of a vertex from the plane of its chart, in the units of the mesh.
+    pub distance: f64,
+}
+
+/// A [`Structure`] found on a mesh, with the way back to the mesh.
+#[derive(Clone, Debug)]
+pub struct Polycube {
+    /// Facets, edges, corners, levels.
+    pub structure: Structure,
+    /// The levels as the mesh has them, in its units.
+    pub placement: Placement,
+    /// The boundary of the mesh.
+    pub surface: Surface,
+    /// The facet of every boundary face.
+    pub facet_of_face: Vec<u32>,
+    /// The mesh vertices along every edge, from its lower to its higher corner.
+    pub chains: Vec<Vec<u32>>,
+    /// For every mesh vertex and axis, the level that it must lie on: three at corners, two on edges, one on facets.
+    pub vertex_levels: Vec<[Option<u32>; 3]>,
+    /// How far the mesh is from exact.
+    pub deviation: Deviation,
+}
+
+impl Polycube {
+    /// Reads `mesh` as a polycube, or lists every violation of the first rule that does not hold ([`Violation`]).
+    ///
+    /// `labels` has one number per boundary face (see [`Cells::boundary`](crate::mesh::Cells::boundary)), −1 where
+    /// the face's normal shall decide. Whether the surface touches itself is not checked here but by
+    /// [`overlaps`](Self::overlaps). O(n log n) for n faces.
+    pub fn new(mesh: &Mesh, labels: Option<&[i8]>, tolerance: &Tolerance) -> Result<Self, Vec<Violation>> {
+        check_points(&mesh.points)?;
+        let faces = mesh.cells.boundary().map_err(|e| match e.place {
+            Some(crate::Place::Edge(a, b)) => vec![Violation::NonManifoldEdge { edge: [a, b] }],
+            Some(crate::Place::Cell(cell)) => vec![Violation::InvertedCell { cell }],
+            _ => vec![Violation::Empty],
+        })?;
+        let surface = Surface::new(faces, mesh.points.len())?;
+        let (labels, degrees) = label_faces(&mesh.points, &surface, labels, tolerance)?;
+        let charts = Charts::new(&surface, labels)?;
+        let skeleton = Skeleton::new(&surface, &charts)?;
+        skeleton.into_polycube(&mesh.points, surface, charts, degrees, tolerance)
+    }
+
+    /// Where the surface touches or crosses itself, or looks inward, as the mesh comes.
+    pub fn overlaps(&self, points: &[Point]) -> Vec<Violation> {
+        let arrangement = Arrangement::new(&self.structure, &self.placement);
+        let conflicts = arrangement.conflicts();
+        if conflicts.is_empty() {
+            let face = |facet| Violation::InsideOut { face: self.first_face(facet) };
+            return arrangement.inside_out().into_iter().map(face).collect();
+        }
+        let mut found: Vec<Violation> = Vec::new();
+        for conflict in &conflicts {
+            let violation = self.overlap(conflict, points);
+            if !found.contains(&violation) {
+                found.push(violation);
+            }
+        }
+        found
+    }
+
+    /// The label of every boundary face.
+    pub fn labels(&self) -> impl Iterator<Item = Label> + '_ {
+        self.facet_of_face.iter().map(|&f| self.structure.facets[f as usize].label)
+    }
+
+    /// The prescribed coordinates of every mesh vertex when the levels lie at `placement`.
+    pub fn prescribed(&self, placement: &[f64]) -> Vec<[Option<f64>; 3]> {
+        let at = |level: Option<u32>| level.map(|l| placement[l as usize]);
+        self.vertex_levels.iter().map(|levels| levels.map(at)).collect()
+    }
+
+    fn first_face(&self, facet: u32) -> u32 {
+        self.facet_of_face.iter().position(|&f| f == facet).unwrap_or(0) as u32
+    }
+
+    fn overlap(&self, conflict: &Conflict, points: &[Point]) -> Violation {
+        let [face, other] = conflict.facets.map(|f| self.nearest_face(f, Point::from(conflict.point), points));
+        Violation::SelfOverlap { face, other }
+    }
+
+    fn nearest_face(&self, facet: u32, to: Point, points: &[Point]) -> u32 {
+        let distance = |face: &Face| {
+            let v = face.vertices();
+            let sum: nalgebra::Vector3<f64> = v.iter().map(|&v| points[v as usize].coords).sum();
+            (sum / v.len() as f64 - to.coords).norm()
+        };
+        let own = (0..).zip(self.surface.faces()).filter(|(i, _)| self.facet_of_face[*i as usize] == facet);
+        let nearest = own.min_by(|a, b| distance(a.1).total_cmp(&distance(b.1)));
+        nearest.map_or(0, |(i, _)| i)
+    }
+}
+
+fn check_points(points: &[Point]) -> Result<(), Vec<Violation>> {
+    let bad = (0..).zip(points).filter(|(_, p)| !p.iter().all(|x| x.is_finite()));
+    let violations: Vec<_> = bad.map(|(vertex, _)| Violation::NotFinite { vertex }).collect();
+    if violations.is_empty() { Ok(()) } else { Err(violations) }
+}
+
+/// The label of every face and the largest angle to its axis, or the faces that have none.
+fn label_faces(
+    points: &[Point],
+    surface: &Surface,
+    given: Option<&[i8]>,
+    tolerance: &Tolerance,
+) -> Result<(Vec<Label>, f64), Vec<Violation>> {
+    let mut labels = Vec::with_capacity(surface.faces().len());
+    let mut violations = Vec::new();
+    let mut worst = 0.0_f64;
+    for (face, f) in (0..).zip(surface.faces()) {
+        let normal = area_vector(points, f);
+        let own = given.and_then(|g| g.get(face as usize)).and_then(|&l| Label::new(l));
+        let (nearest, cosine) = Label::nearest(&normal);
+        let label = own.unwrap_or(nearest);
+        labels.push(label);
+        if !cosine.is_finite() {
+            if own.is_none() {
+                violations.push(Violation::FlatFace { face });
+            }
+            continue;
+        }
+        let cosine = f64::from(label.sign()) * normal[label.axis()] / normal.norm();
+        let degrees = cosine.clamp(-1.0, 1.0).acos().to_degrees();
+        worst = worst.max(degrees);
+        if own.is_none() && degrees > tolerance.degrees {
+            violations.push(Violation::SkewFace { face, degrees });
+        }
+    }
+    if violations.is_empty() { Ok((labels, worst)) } else { Err(violations) }
+}

@@ -1,0 +1,146 @@
+//! Which boundary face lies beside which: half-edges over triangles and quadrilaterals.
+
+use super::violation::Violation;
+use crate::mesh::Face;
+
+/// A side of a face, numbered `4 * face + side`; it runs from vertex `side` of the face to the next one.
+pub type HalfEdge = u32;
+
+const NONE: u32 = u32::MAX;
+
+/// A closed, oriented, manifold surface: the faces and the half-edge opposite to each half-edge.
+#[derive(Clone, Debug)]
+pub struct Surface {
+    faces: Vec<Face>,
+    twins: Vec<HalfEdge>,
+    /// One half-edge out of each vertex, [`NONE`] for vertices off the surface.
+    outgoing: Vec<HalfEdge>,
+}
+
+impl Surface {
+    /// Links `faces` over `vertices` vertices, or lists everything that is not closed, oriented and manifold.
+    ///
+    /// O(n log n).
+    pub fn new(faces: Vec<Face>, vertices: usize) -> Result<Self, Vec<Violation>> {
+        let bad = bad_faces(&faces, vertices);
+        if faces.is_empty() {
+            return Err(vec![Violation::Empty]);
+        }
+        if !bad.is_empty() {
+            return Err(bad);
+        }
+        let mut surface = Self { twins: vec![NONE; 4 * faces.len()], outgoing: vec![NONE; vertices], faces };
+        let violations = surface.link();
+        if !violations.is_empty() {
+            return Err(violations);
+        }
+        let violations = surface.start_fans();
+        if violations.is_empty() { Ok(surface) } else { Err(violations) }
+    }
+
+    /// Number of vertices of the mesh, on the surface or not.
+    pub fn vertex_count(&self) -> usize {
+        self.outgoing.len()
+    }
+
+    /// The faces, as given.
+    pub fn faces(&self) -> &[Face] {
+        &self.faces
+    }
+
+    /// All half-edges, face by face.
+    pub fn half_edges(&self) -> impl Iterator<Item = HalfEdge> + '_ {
+        let sides = |(i, f): (usize, &Face)| (0..f.vertices().len()).map(move |k| (4 * i + k) as HalfEdge);
+        self.faces.iter().enumerate().flat_map(sides)
+    }
+
+    /// The face that `h` is a side of.
+    pub fn face(&self, h: HalfEdge) -> usize {
+        h as usize / 4
+    }
+
+    /// The half-edge on the other side.
+    pub fn twin(&self, h: HalfEdge) -> HalfEdge {
+        self.twins[h as usize]
+    }
+
+    /// The next side of the same face.
+    pub fn next(&self, h: HalfEdge) -> HalfEdge {
+        let sides = self.faces[self.face(h)].vertices().len() as u32;
+        h - h % 4 + (h % 4 + 1) % sides
+    }
+
+    /// The side before `h` in the same face.
+    pub fn previous(&self, h: HalfEdge) -> HalfEdge {
+        let sides = self.faces[self.face(h)].vertices().len() as u32;
+        h - h % 4 + (h % 4 + sides - 1) % sides
+    }
+
+    /// The vertex that `h` starts from.
+    pub fn start(&self, h: HalfEdge) -> u32 {
+        self.faces[self.face(h)].vertices()[h as usize % 4]
+    }
+
+    /// The vertex that `h` ends at.
+    pub fn end(&self, h: HalfEdge) -> u32 {
+        self.start(self.next(h))
+    }
+
+    /// The half-edges that leave `vertex`, counter-clockwise seen from outside; none for a vertex off the surface.
+    pub fn fan(&self, vertex: u32) -> impl Iterator<Item = HalfEdge> + '_ {
+        let first = self.outgoing[vertex as usize];
+        let turn = move |&h: &HalfEdge| Some(self.twin(self.previous(h))).filter(|&h| h != first);
+        std::iter::successors(Some(first).filter(|&h| h != NONE), turn)
+    }
+
+    /// Pairs up half-edges over one mesh edge.
+    fn link(&mut self) -> Vec<Violation> {
+        let ends = |h: HalfEdge| [self.start(h), self.end(h)];
+        let mut sorted: Vec<([u32; 2], HalfEdge)> = self.half_edges().map(|h| (ordered(ends(h)), h)).collect();
+        sorted.sort_unstable();
+        let mut violations = Vec::new();
+        let mut twins = std::mem::take(&mut self.twins);
+        for group in sorted.chunk_by(|a, b| a.0 == b.0) {
+            let edge = group[0].0;
+            match *group {
+                [(_, a), (_, b)] if self.start(a) != self.start(b) => {
+                    twins[a as usize] = b;
+                    twins[b as usize] = a;
+                }
+                [_] => violations.push(Violation::OpenEdge { edge }),
+                [_, _] => violations.push(Violation::InconsistentOrientation { edge }),
+                _ => violations.push(Violation::NonManifoldEdge { edge }),
+            }
+        }
+        self.twins = twins;
+        violations
+    }
+
+    /// Finds a half-edge out of each vertex and the vertices with more than one fan.
+    fn start_fans(&mut self) -> Vec<Violation> {
+        let mut valence = vec![0_u32; self.outgoing.len()];
+        let leaving: Vec<(u32, HalfEdge)> = self.half_edges().map(|h| (self.start(h), h)).collect();
+        for (vertex, h) in leaving {
+            valence[vertex as usize] += 1;
+            if self.outgoing[vertex as usize] == NONE {
+                self.outgoing[vertex as usize] = h;
+            }
+        }
+        let several = |&v: &u32| self.fan(v).count() < valence[v as usize] as usize;
+        let vertices = 0..valence.len() as u32;
+        vertices.filter(several).map(|vertex| Violation::NonManifoldVertex { vertex }).collect()
+    }
+}
+
+fn ordered([a, b]: [u32; 2]) -> [u32; 2] {
+    [a.min(b), a.max(b)]
+}
+
+fn bad_faces(faces: &[Face], vertices: usize) -> Vec<Violation> {
+    let bad = |f: &Face| {
+        let v = f.vertices();
+        v.iter().enumerate().any(|(i, &a)| a as usize >= vertices || v[..i].contains(&a))
+    };
+    let numbered = (0..).zip(faces);
+    numbered.filter(|(_, f)| bad(f)).map(|(face, _)| Violation::BadFace { face }).collect()
+}
