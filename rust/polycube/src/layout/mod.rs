@@ -6,3 +6,11 @@ mod separatrices;
 
 pub use complex::{Complex, Counts};
 pub use lattice::Lattice;
+
+use crate::structure::Arrangement;
+
+/// Counts patches and blocks of an arrangement without conflicts. O(c) for c cells of its coarsest lattice.
+pub fn count(arrangement: &Arrangement) -> Counts {
+    let lattice = Lattice::new(arrangement);
+    Complex::new(&lattice, arrangement).counts(arrangement)
+}
