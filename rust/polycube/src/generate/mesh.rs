@@ -68,7 +68,7 @@ pub(super) const HEXAHEDRON: [usize; 8] = [0, 1, 3, 2, 4, 5, 7, 6];
 
 /// Five tetrahedra of a cell whose octant 0 is even; its diagonals join even octants (0, 3, 5, 6).
 /// An odd cell is its mirror image along X.
-const TETRAHEDRA: [[usize; 4]; 5] = [
+pub(super) const TETRAHEDRA: [[usize; 4]; 5] = [
     [0, 3, 6, 5],
     [1, 3, 0, 5],
     [2, 0, 3, 6],
@@ -104,7 +104,7 @@ impl<'a> Lattice<'a> {
         Point::from([0, 1, 2].map(|axis| self.voxels.planes(axis)[at[axis]]))
     }
 
-    fn octants(&self, cell: [usize; 3]) -> [u32; 8] {
+    pub(super) fn octants(&self, cell: [usize; 3]) -> [u32; 8] {
         let [nx, ny, _] = self.counts;
         std::array::from_fn(|o| {
             let [x, y, z] = [0, 1, 2].map(|axis| cell[axis] + (o >> axis & 1));
