@@ -10,7 +10,7 @@ use crate::mesh::{Mesh, Point};
 use std::fmt;
 use std::str::FromStr;
 
-/// The named polycubes: about 40 to 60 units long, on integer coordinates.
+/// The named polycubes: 44 to 66 units long, on integer coordinates.
 ///
 /// Each has a part that stays and parts that a seed shifts by 1 to 3 units. With seed 0 all parts
 /// are aligned; every other seed makes something to align.
