@@ -5,6 +5,7 @@
 pub mod align;
 pub mod context;
 pub mod error;
+pub mod generate;
 pub mod layout;
 pub mod map;
 pub mod mesh;
