@@ -6,6 +6,8 @@ use crate::error::{Error, ErrorKind, Result};
 
 /// The vertex at infinity: with it the hull's facets are cells too and no insertion is a special case.
 const INFINITE: u32 = u32::MAX;
+/// A neighbour not yet linked.
+const UNKNOWN: u32 = u32::MAX;
 /// How many insertions pass between two reports.
 const REPORT: usize = 512;
 
@@ -200,8 +202,12 @@ impl<'a> Delaunay<'a> {
         }
         for &(c, i) in &rim {
             let new = self.cell(c).neighbours[i];
-            for j in (0..4).filter(|&j| j != i) {
-                self.cells[new as usize].neighbours[j] = self.around(c, i, j);
+            for j in 0..4 {
+                if self.cell(new).neighbours[j] == UNKNOWN {
+                    let (other, k) = self.around(c, i, j);
+                    self.cells[new as usize].neighbours[j] = other;
+                    self.cells[other as usize].neighbours[k] = new;
+                }
             }
         }
         for &c in &self.cavity {
@@ -214,14 +220,17 @@ impl<'a> Delaunay<'a> {
     /// Makes the cell of `p` and the facet opposite vertex `i` of `c`; `c` points to it from then on.
     fn join(&mut self, c: u32, i: usize, p: u32) {
         let mut cell = *self.cell(c);
+        let outer = cell.neighbours[i];
         cell.vertices[i] = p;
+        cell.neighbours = [UNKNOWN; 4];
+        cell.neighbours[i] = outer;
         cell.seen = 0;
         let new = self.free.pop().unwrap_or(self.cells.len() as u32);
         match self.cells.get_mut(new as usize) {
             Some(old) => *old = cell,
             None => self.cells.push(cell),
         }
-        let beyond = &mut self.cells[cell.neighbours[i] as usize];
+        let beyond = &mut self.cells[outer as usize];
         if let Some(back) = beyond.neighbours.iter_mut().find(|n| **n == c) {
             *back = new;
         }
@@ -232,15 +241,15 @@ impl<'a> Delaunay<'a> {
     }
 
     /// The new cell on the other side of the facet that `p` spans with the edge opposite vertices `i`
-    /// and `j` of `c`, found by turning around that edge through the cavity.
-    fn around(&self, c: u32, i: usize, j: usize) -> u32 {
+    /// and `j` of `c`, and the facet's number there. Found by turning around that edge through the cavity.
+    fn around(&self, c: u32, i: usize, j: usize) -> (u32, usize) {
         let (mut at, mut keep, mut out) = (c, i, j);
         loop {
             let cell = self.cell(at);
             let next = cell.neighbours[out];
             let beyond = self.cell(next);
             if beyond.seen != self.round {
-                return next;
+                return (next, keep);
             }
             let pivot = cell.vertices[keep];
             for k in 0..4 {

@@ -56,14 +56,34 @@ fn edges(cells: &[[u32; 4]], count: usize) -> Vec<[u32; 2]> {
     const CORNERS: [[usize; 2]; 6] = [[0, 1], [0, 2], [0, 3], [1, 2], [1, 3], [2, 3]];
     let all = cells
         .iter()
-        .flat_map(|c| CORNERS.map(|[i, j]| [c[i], c[j]]));
-    let mut edges: Vec<_> = all
-        .map(|[a, b]| [a.min(b), a.max(b)])
-        .filter(|&[_, b]| (b as usize) < count)
-        .collect();
-    edges.sort_unstable();
-    edges.dedup();
+        .flat_map(|c| CORNERS.map(|[i, j]| [c[i].min(c[j]), c[i].max(c[j])]));
+    let (mut seconds, ends) = grouped(all.filter(|&[_, b]| (b as usize) < count), count);
+    let mut edges = Vec::new();
+    let mut start = 0;
+    for (a, &end) in ends.iter().enumerate() {
+        let list = &mut seconds[start..end];
+        list.sort_unstable();
+        edges.extend(list.chunk_by(|x, y| x == y).map(|same| [a as u32, same[0]]));
+        start = end;
+    }
     edges
+}
+
+/// The second members of the pairs grouped by the first, and where each group ends: sorting many short
+/// lists is faster than sorting all the pairs.
+fn grouped(pairs: impl Iterator<Item = [u32; 2]> + Clone, count: usize) -> (Vec<u32>, Vec<usize>) {
+    let mut ends = vec![0; count];
+    pairs.clone().for_each(|[a, _]| ends[a as usize] += 1);
+    let mut total = 0;
+    for end in &mut ends {
+        (*end, total) = (total, total + *end);
+    }
+    let mut seconds = vec![0; total];
+    for [a, b] in pairs {
+        seconds[ends[a as usize]] = b;
+        ends[a as usize] += 1;
+    }
+    (seconds, ends)
 }
 
 /// From edges between sites to pairs of points.

@@ -102,7 +102,9 @@ fn minus(a: Point, b: Point) -> Point {
 }
 
 fn largest(rows: &[Point]) -> f64 {
-    rows.iter().flatten().fold(0.0, |m: f64, x| m.max(x.abs()))
+    let max = |a: f64, b: f64| if a > b { a } else { b };
+    let axis = |k: usize| rows.iter().fold(0.0, |m, row| max(m, row[k].abs()));
+    max(max(axis(0), axis(1)), axis(2))
 }
 
 fn whole(x: f64) -> i128 {

@@ -166,8 +166,8 @@ fn a_cube_grid_gets_the_same_diagonals_everywhere() {
 }
 
 #[test]
-fn points_on_one_sphere() {
-    // All 72 lattice points at squared distance 689 or so are cospherical; the cube's 8 inside are not.
+fn points_on_one_sphere_are_delaunay() {
+    // Lattice points on one sphere, then with the eight corners of a cube inside.
     let shell = |r: i64| {
         grid(53, 53, 53)
             .into_iter()
@@ -211,15 +211,20 @@ fn moving_and_scaling_to_the_limit_changes_nothing() {
         .map(|p| p.map(|x| x * step - (1 << 30)))
         .collect();
     assert_eq!(pairs(&far), expected);
-    // A last point off the lattice's step keeps the numbers large.
-    let mut odd = far.clone();
-    odd.push([1 << 30; 3]);
-    odd.push([(1 << 30) - 1, 1 << 30, 1 << 30]);
-    assert_pairs(&odd);
-    let kept = pairs(&odd);
-    let core =
-        |p: &&[u32; 2]| far[p[0] as usize].iter().all(|&x| x < 0) && (p[1] as usize) < far.len();
-    assert!(expected.iter().filter(core).all(|p| kept.contains(p)));
+}
+
+#[test]
+fn large_numbers_make_the_same_tetrahedra() {
+    let sites = Sites::new(&box_surface(5, 4, 6)).unwrap();
+    let order = sites.insertion_order();
+    let run = |points: &[predicates::Point]| {
+        delaunay::tetrahedra(points, sites.frame, &order, &Context::default()).unwrap()
+    };
+    let expected = run(&sites.points);
+    for step in [999.0, 65_537.0, f64::from((1 << 30) / 5)] {
+        let large: Vec<_> = sites.points.iter().map(|p| p.map(|x| x * step)).collect();
+        assert_eq!(run(&large), expected);
+    }
 }
 
 #[test]
