@@ -1,5 +1,10 @@
 //! Meshes of triangles, quadrilaterals, tetrahedra or hexahedra, and their boundary.
 
+mod simplices;
+
+pub(crate) use simplices::split_quad;
+pub use simplices::{Face, Simplices};
+
 use nalgebra::Point3;
 
 /// A point in space.
