@@ -1,6 +1,6 @@
 //! The morph on real polycubes.
 
-use super::testing::{labels, real_polycubes};
+use super::testing::{labels, real_polycubes, tri_box};
 use super::{distortion, flipped, morph};
 use crate::context::Context;
 use crate::mesh::{Mesh, Point};
@@ -58,6 +58,7 @@ fn real_polycubes_stay_and_move() {
             "{name}: affine map missed by {:.1e} of the size",
             error / span
         );
+        assert!(error < 1e-8 * span, "{name}");
         let moved = morph(&mesh, &levels(&mesh, uneven), &context).unwrap();
         let moved = Mesh {
             points: moved,
@@ -102,6 +103,29 @@ fn time_and_memory() {
                 resident("VmHWM")
             );
         }
+    }
+}
+
+/// Two large sheets, the worst surface for an iterative solver.
+#[test]
+#[ignore = "prints time and memory; run in release mode"]
+fn time_of_a_large_surface() {
+    for n in [150, 300, 577] {
+        let mesh = tri_box([n, n, 1]);
+        let bend = |x: f64| x + 10.0 * (x * 0.01).sin();
+        let fixed = levels(&mesh, |axis, x| if axis < 2 { bend(x) } else { x });
+        let mut fixed = fixed;
+        for (f, p) in fixed.iter_mut().zip(&mesh.points) {
+            f[0] = f[0].map(|x| x + (p.y * 0.1).cos());
+        }
+        let start = Instant::now();
+        morph(&mesh, &fixed, &Context::default()).unwrap();
+        println!(
+            "{} surface vertices in {:.0?}, peak {} kB",
+            mesh.points.len(),
+            start.elapsed(),
+            resident("VmHWM")
+        );
     }
 }
 

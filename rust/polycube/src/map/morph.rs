@@ -240,6 +240,30 @@ mod tests {
         }
     }
 
+    /// Obtuse, stretched, thin: weights of either sign over six orders of magnitude.
+    #[test]
+    fn slivers_keep_the_precision() {
+        for (squeeze, seed) in [(1.0, 1), (1e-3, 2), (300.0, 3)] {
+            let mut mesh = jittered(&tri_box([12, 12, 12]), 0.3, seed);
+            for p in &mut mesh.points {
+                p.y *= squeeze;
+            }
+            let mut fixed = levels(&mesh);
+            for f in &mut fixed {
+                *f = f.map(|x| x.map(|x| 2.0 * x + 1.0));
+            }
+            let moved = run(&mesh, &fixed);
+            for ((p, q), f) in mesh.points.iter().zip(moved).zip(&fixed) {
+                let image = if f.iter().any(Option::is_some) {
+                    p * 2.0 + Point::new(1.0, 1.0, 1.0).coords
+                } else {
+                    *p
+                };
+                assert!((q - image).amax() < 1e-7 * squeeze.max(1.0));
+            }
+        }
+    }
+
     #[test]
     fn inner_prescriptions_are_met() {
         let mesh = hex_box([4, 4, 4]);
