@@ -1,1 +1,23 @@
-//! To be written.
+//! Carry a mesh onto a new polycube structure, and judge the result.
+//!
+//! [`morph`] solves the Laplace problem of the finalisation (paper, section 6); [`flipped`] lists
+//! the elements it turned over, [`distortion`] says how far one mesh is from a similarity of another.
+
+#[cfg(test)]
+mod bunny;
+mod check;
+mod cotangent;
+mod distortion;
+mod flipped;
+mod harmonic;
+mod ilu;
+mod krylov;
+mod mean_value;
+mod morph;
+mod sparse;
+#[cfg(test)]
+pub(crate) mod testing;
+
+pub use distortion::{Distortion, distortion};
+pub use flipped::{Flipped, flipped};
+pub use morph::morph;

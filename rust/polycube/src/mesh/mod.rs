@@ -2,7 +2,8 @@
 
 mod simplices;
 
-pub use simplices::Face;
+pub(crate) use simplices::split_quad;
+pub use simplices::{Face, Simplices};
 
 use nalgebra::Point3;
 

@@ -1,0 +1,154 @@
+//! Sparse matrices by rows, and how the star of each vertex fills one row.
+
+/// One value per right-hand side.
+pub(super) type Values<const N: usize> = [f64; N];
+
+/// A sparse matrix by rows; the columns of a row ascend.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub(super) struct Rows {
+    start: Vec<usize>,
+    columns: Vec<u32>,
+    values: Vec<f64>,
+}
+
+impl Rows {
+    /// A matrix without rows.
+    pub(super) fn new() -> Self {
+        Self {
+            start: vec![0],
+            ..Self::default()
+        }
+    }
+
+    /// Adds the next row: sorts `entries` by column, sums those of one column in the order given,
+    /// and leaves `entries` empty.
+    pub(super) fn push(&mut self, entries: &mut Vec<(u32, f64)>) {
+        let first = self.columns.len();
+        // Stable, so that rounding depends on the order of the cells alone.
+        entries.sort_by_key(|&(column, _)| column);
+        for (column, value) in entries.drain(..) {
+            if self.columns.len() > first && self.columns.last() == Some(&column) {
+                let last = self.values.len() - 1;
+                self.values[last] += value;
+            } else {
+                self.columns.push(column);
+                self.values.push(value);
+            }
+        }
+        self.start.push(self.columns.len());
+    }
+
+    /// Number of rows.
+    pub(super) fn len(&self) -> usize {
+        self.start.len() - 1
+    }
+
+    /// Where row `i` lies in [`columns`](Self::columns) and [`values`](Self::values).
+    pub(super) fn range(&self, i: usize) -> std::ops::Range<usize> {
+        self.start[i]..self.start[i + 1]
+    }
+
+    /// Columns of all entries, row by row.
+    pub(super) fn columns(&self) -> &[u32] {
+        &self.columns
+    }
+
+    /// Values of all entries, row by row.
+    pub(super) fn values(&self) -> &[f64] {
+        &self.values
+    }
+
+    /// Values of all entries, to change.
+    pub(super) fn values_mut(&mut self) -> &mut [f64] {
+        &mut self.values
+    }
+
+    /// Column and value of the entries of row `i`.
+    pub(super) fn row(&self, i: usize) -> impl Iterator<Item = (usize, f64)> + '_ {
+        let range = self.range(i);
+        let columns = self.columns[range.clone()].iter();
+        columns
+            .map(|&c| c as usize)
+            .zip(self.values[range].iter().copied())
+    }
+
+    /// `y = A x`.
+    pub(super) fn multiply<const N: usize>(&self, x: &[Values<N>], y: &mut [Values<N>]) {
+        for (i, out) in y.iter_mut().enumerate() {
+            let mut sum = [0.0; N];
+            for (j, a) in self.row(i) {
+                add_scaled(&mut sum, a, &x[j]);
+            }
+            *out = sum;
+        }
+    }
+}
+
+/// `sum += a x`.
+#[inline]
+pub(super) fn add_scaled<const N: usize>(sum: &mut Values<N>, a: f64, x: &Values<N>) {
+    for k in 0..N {
+        sum[k] += a * x[k];
+    }
+}
+
+/// For every vertex the simplices that use it, ascending.
+pub(super) struct Stars {
+    start: Vec<usize>,
+    simplices: Vec<u32>,
+}
+
+impl Stars {
+    /// The stars of `vertices` vertices. Linear time.
+    pub(super) fn new<const K: usize>(vertices: usize, simplices: &[[u32; K]]) -> Self {
+        let mut start = vec![0; vertices + 1];
+        for &v in simplices.as_flattened() {
+            start[v as usize + 1] += 1;
+        }
+        for v in 0..vertices {
+            start[v + 1] += start[v];
+        }
+        let mut next = start.clone();
+        let mut items = vec![0; simplices.len() * K];
+        for (s, simplex) in simplices.iter().enumerate() {
+            for &v in simplex {
+                items[next[v as usize]] = s as u32;
+                next[v as usize] += 1;
+            }
+        }
+        Self {
+            start,
+            simplices: items,
+        }
+    }
+
+    /// The simplices around `v`.
+    pub(super) fn of(&self, v: usize) -> &[u32] {
+        &self.simplices[self.start[v]..self.start[v + 1]]
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn rows_sort_and_sum_their_entries() {
+        let mut rows = Rows::new();
+        rows.push(&mut vec![(2, 1.0), (0, 2.0), (2, 3.0)]);
+        rows.push(&mut vec![]);
+        rows.push(&mut vec![(2, 5.0)]);
+        assert_eq!(rows.row(0).collect::<Vec<_>>(), [(0, 2.0), (2, 4.0)]);
+        let mut y = vec![[0.0; 2]; 3];
+        rows.multiply(&[[1.0, 2.0], [9.0, 9.0], [10.0, 1.0]], &mut y);
+        assert_eq!(y, [[42.0, 8.0], [0.0, 0.0], [50.0, 5.0]]);
+    }
+
+    #[test]
+    fn stars_list_simplices_in_order() {
+        let stars = Stars::new(5, &[[0, 1, 2], [2, 1, 3]]);
+        assert_eq!(stars.of(1), [0, 1]);
+        assert_eq!(stars.of(3), [1]);
+        assert!(stars.of(4).is_empty());
+    }
+}

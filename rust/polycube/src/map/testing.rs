@@ -1,0 +1,205 @@
+//! Small meshes, and a reader for the big ones, for the tests of this crate.
+
+use crate::mesh::{Cells, Face, Mesh, Point, Simplices};
+use std::path::PathBuf;
+
+/// SplitMix64.
+pub(crate) struct Random(pub(crate) u64);
+
+impl Random {
+    /// The next number in 0..1.
+    pub(crate) fn unit(&mut self) -> f64 {
+        self.0 = self.0.wrapping_add(0x9e37_79b9_7f4a_7c15);
+        let mut z = self.0;
+        z = (z ^ (z >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
+        z = (z ^ (z >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
+        ((z ^ (z >> 31)) >> 11) as f64 / (1_u64 << 53) as f64
+    }
+}
+
+/// A box of unit cubes with a corner in the origin; vertex (x, y, z) has number x + (nx+1)(y + (ny+1) z).
+pub(crate) fn hex_box(n: [u32; 3]) -> Mesh {
+    let id = |x: u32, y: u32, z: u32| x + (n[0] + 1) * (y + (n[1] + 1) * z);
+    let (mut points, mut hexes) = (Vec::new(), Vec::new());
+    for z in 0..=n[2] {
+        for y in 0..=n[1] {
+            for x in 0..=n[0] {
+                points.push(Point::new(f64::from(x), f64::from(y), f64::from(z)));
+                if x < n[0] && y < n[1] && z < n[2] {
+                    let ring = |z| {
+                        [
+                            id(x, y, z),
+                            id(x + 1, y, z),
+                            id(x + 1, y + 1, z),
+                            id(x, y + 1, z),
+                        ]
+                    };
+                    let ([a, b, c, d], [e, f, g, h]) = (ring(z), ring(z + 1));
+                    hexes.push([a, b, c, d, e, f, g, h]);
+                }
+            }
+        }
+    }
+    Mesh {
+        points,
+        cells: Cells::Hexahedra(hexes),
+    }
+}
+
+/// The same box of tetrahedra.
+pub(crate) fn tet_box(n: [u32; 3]) -> Mesh {
+    let mesh = hex_box(n);
+    let Simplices::Tetrahedra(t) = mesh.cells.simplices() else {
+        panic!("not a volume")
+    };
+    Mesh {
+        cells: Cells::Tetrahedra(t.into_owned()),
+        points: mesh.points,
+    }
+}
+
+/// Its surface of quadrilaterals; the inner vertices stay, used by no cell.
+pub(crate) fn quad_box(n: [u32; 3]) -> Mesh {
+    let mesh = hex_box(n);
+    let quad = |f: Face| match f {
+        Face::Quad(q) => q,
+        Face::Triangle(_) => panic!("not a quadrilateral"),
+    };
+    let cells = mesh
+        .cells
+        .boundary()
+        .unwrap()
+        .into_iter()
+        .map(quad)
+        .collect();
+    Mesh {
+        cells: Cells::Quads(cells),
+        points: mesh.points,
+    }
+}
+
+/// The same of triangles.
+pub(crate) fn tri_box(n: [u32; 3]) -> Mesh {
+    let mesh = quad_box(n);
+    let Simplices::Triangles(t) = mesh.cells.simplices() else {
+        panic!("not a surface")
+    };
+    Mesh {
+        cells: Cells::Triangles(t.into_owned()),
+        points: mesh.points,
+    }
+}
+
+/// The mesh with its vertices numbered at random.
+pub(crate) fn shuffled(mesh: &Mesh, seed: u64) -> Mesh {
+    let mut random = Random(seed);
+    let mut order: Vec<(f64, usize)> = (0..mesh.points.len()).map(|v| (random.unit(), v)).collect();
+    order.sort_by(|a, b| a.0.total_cmp(&b.0));
+    let mut rank = vec![0; order.len()];
+    for (new, &(_, old)) in order.iter().enumerate() {
+        rank[old] = new as u32;
+    }
+    let Cells::Hexahedra(cells) = &mesh.cells else {
+        panic!("not hexahedra")
+    };
+    Mesh {
+        points: order.iter().map(|&(_, old)| mesh.points[old]).collect(),
+        cells: Cells::Hexahedra(cells.iter().map(|c| c.map(|v| rank[v as usize])).collect()),
+    }
+}
+
+/// The box with every coordinate that is free of the box's sides moved by up to `amount`.
+pub(crate) fn jittered(mesh: &Mesh, amount: f64, seed: u64) -> Mesh {
+    let mut random = Random(seed);
+    let sides = levels(mesh);
+    let mut mesh = mesh.clone();
+    for (p, side) in mesh.points.iter_mut().zip(sides) {
+        for k in 0..3 {
+            let step = amount * (2.0 * random.unit() - 1.0);
+            p[k] += if side[k].is_none() { step } else { 0.0 };
+        }
+    }
+    mesh
+}
+
+/// The coordinates of a box's vertices on its sides.
+pub(crate) fn levels(mesh: &Mesh) -> Vec<[Option<f64>; 3]> {
+    let far = mesh.points.iter().fold([0.0_f64; 3], |m, p| {
+        [m[0].max(p.x), m[1].max(p.y), m[2].max(p.z)]
+    });
+    let side = |p: &Point, k: usize| (p[k] == 0.0 || p[k] == far[k]).then_some(p[k]);
+    mesh.points
+        .iter()
+        .map(|p| [side(p, 0), side(p, 1), side(p, 2)])
+        .collect()
+}
+
+/// The label of every boundary face, by its normal; −1 for a flat one.
+pub(crate) fn labels(mesh: &Mesh) -> Vec<i8> {
+    let label = |f: &Face| {
+        let p: Vec<_> = f
+            .vertices()
+            .iter()
+            .map(|&v| mesh.points[v as usize])
+            .collect();
+        let normal = (p[1] - p[0]).cross(&(p[2] - p[0]));
+        let axis = normal.iamax() as i8;
+        if normal == nalgebra::Vector3::zeros() {
+            -1
+        } else {
+            2 * axis + i8::from(normal[axis as usize] < 0.0)
+        }
+    };
+    mesh.cells.boundary().unwrap().iter().map(label).collect()
+}
+
+/// Every tetrahedral polycube of the test data with its name; none where there is no data, unless
+/// `POLYCUBE_REQUIRE_DATA=1`.
+pub(crate) fn real_polycubes() -> Vec<(String, Mesh)> {
+    let beside = PathBuf::from(env!("CARGO_MANIFEST_DIR")).join("../../../shared/data");
+    let folder = std::env::var_os("POLYCUBE_DATA").map_or(beside, PathBuf::from);
+    let Ok(entries) = std::fs::read_dir(&folder) else {
+        let required = std::env::var("POLYCUBE_REQUIRE_DATA").is_ok_and(|v| v == "1");
+        assert!(!required, "no data in {}", folder.display());
+        println!("skipped: no data");
+        return Vec::new();
+    };
+    let mut paths: Vec<_> = entries.map(|e| e.unwrap().path()).collect();
+    paths.retain(|p| p.to_string_lossy().ends_with(".polycube.mesh"));
+    paths.sort();
+    let name = |p: &PathBuf| p.file_name().unwrap().to_string_lossy().into_owned();
+    paths
+        .iter()
+        .map(|p| (name(p), read_medit(&std::fs::read_to_string(p).unwrap())))
+        .collect()
+}
+
+/// Reads the vertices and tetrahedra of a MEDIT text.
+fn read_medit(text: &str) -> Mesh {
+    let (mut points, mut tetrahedra) = (Vec::new(), Vec::new());
+    let mut words = text.split_ascii_whitespace();
+    while let Some(word) = words.next() {
+        let mut count = || words.next().unwrap().parse::<usize>().unwrap();
+        match word {
+            "Vertices" => {
+                for _ in 0..count() {
+                    let mut next = || words.next().unwrap().parse::<f64>().unwrap();
+                    points.push(Point::new(next(), next(), next()));
+                    words.next();
+                }
+            }
+            "Tetrahedra" => {
+                for _ in 0..count() {
+                    let mut next = || words.next().unwrap().parse::<u32>().unwrap() - 1;
+                    tetrahedra.push([next(), next(), next(), next()]);
+                    words.next();
+                }
+            }
+            _ => {}
+        }
+    }
+    Mesh {
+        points,
+        cells: Cells::Tetrahedra(tetrahedra),
+    }
+}
