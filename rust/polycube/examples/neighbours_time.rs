@@ -12,10 +12,7 @@ struct Random(u64);
 
 impl Random {
     fn below(&mut self, n: i64) -> i64 {
-        self.0 = self
-            .0
-            .wrapping_mul(6_364_136_223_846_793_005)
-            .wrapping_add(1_442_695_040_888_963_407);
+        self.0 = self.0.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
         ((self.0 >> 33) % n as u64) as i64
     }
 }
@@ -39,9 +36,7 @@ fn polycube(size: i64, count: usize) -> Vec<Point> {
         }
     }
     let step = corners.len() as f64 / count as f64;
-    (0..count)
-        .map(|i| corners[(i as f64 * step) as usize])
-        .collect()
+    (0..count).map(|i| corners[(i as f64 * step) as usize]).collect()
 }
 
 fn corners_of(filled: &BTreeSet<Point>) -> Vec<Point> {
@@ -55,23 +50,17 @@ fn corners_of(filled: &BTreeSet<Point>) -> Vec<Point> {
     // A corner has an edge along every axis: its pattern is not the same on both sides of any axis.
     let low = [0b0101_0101, 0b0011_0011, 0b0000_1111];
     let is_corner = |pattern: u8| (0..3).all(|k| pattern & low[k] != pattern >> (1 << k) & low[k]);
-    let kept = around
-        .into_iter()
-        .filter(|&(_, pattern)| is_corner(pattern));
+    let kept = around.into_iter().filter(|&(_, pattern)| is_corner(pattern));
     kept.map(|(corner, _)| corner).collect()
 }
 
 fn random(size: i64, count: usize) -> Vec<Point> {
     let mut random = Random(2);
-    (0..count)
-        .map(|_| [0; 3].map(|_| random.below(size)))
-        .collect()
+    (0..count).map(|_| [0; 3].map(|_| random.below(size))).collect()
 }
 
 fn grid(n: i64) -> Vec<Point> {
-    (0..n * n * n)
-        .map(|i| [i / n / n, i / n % n, i % n])
-        .collect()
+    (0..n * n * n).map(|i| [i / n / n, i / n % n, i % n]).collect()
 }
 
 fn surface(n: i64) -> Vec<Point> {
@@ -94,11 +83,7 @@ fn report(name: &str, points: &[Point]) -> polycube::Result<()> {
         found = black_box(neighbours(black_box(points), &Context::default())?).len();
         best = best.min(start.elapsed().as_secs_f64());
     }
-    println!(
-        "{name:<28} {:>6} points {found:>7} pairs {:>9.3} ms",
-        points.len(),
-        best * 1e3
-    );
+    println!("{name:<28} {:>6} points {found:>7} pairs {:>9.3} ms", points.len(), best * 1e3);
     Ok(())
 }
 

@@ -82,8 +82,14 @@ impl State<'_> {
         if self.settings.oblique_planes {
             planes.extend(pairs.iter().flat_map(|p| self.oblique(p)));
         }
-        let demand =
-            Demand { targets: self.input, classes: &self.outcome.classes, pairs: &pairs, halvings, differences, planes };
+        let demand = Demand {
+            targets: self.input,
+            classes: &self.outcome.classes,
+            pairs: &pairs,
+            halvings,
+            differences,
+            planes,
+        };
         self.outcome.placement = relax(self.structure, &self.outcome.placement, demand, self.settings.solver, context)?;
         let alignments = self.keep(&pairs);
         let counts = count(&Arrangement::new(self.structure, &self.outcome.placement));

@@ -104,7 +104,8 @@ impl Variables {
 fn problem(structure: &Structure, demand: &Demand) -> (Problem, Variables) {
     let variables = Variables::new(demand.classes, structure.levels.len());
     let mut shape = vec![ShapeTerm { weight: 0, target: 0.0 }; variables.classes.len()];
-    for (level, &v) in structure.levels.iter().zip(&variables.of_level).zip(demand.targets).map(|((l, v), t)| ((l, t), v))
+    for (level, &v) in
+        structure.levels.iter().zip(&variables.of_level).zip(demand.targets).map(|((l, v), t)| ((l, t), v))
     {
         let term = &mut shape[v as usize];
         term.target += f64::from(level.0.corners) * level.1;

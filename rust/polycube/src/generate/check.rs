@@ -6,25 +6,10 @@ use nalgebra::Vector3;
 use std::collections::{BTreeMap, BTreeSet};
 
 /// Each corner of a hexahedron with its three neighbours, right-handed.
-const CORNERS: [[usize; 4]; 8] = [
-    [0, 1, 3, 4],
-    [1, 2, 0, 5],
-    [2, 3, 1, 6],
-    [3, 0, 2, 7],
-    [4, 7, 5, 0],
-    [5, 4, 6, 1],
-    [6, 5, 7, 2],
-    [7, 6, 4, 3],
-];
+const CORNERS: [[usize; 4]; 8] =
+    [[0, 1, 3, 4], [1, 2, 0, 5], [2, 3, 1, 6], [3, 0, 2, 7], [4, 7, 5, 0], [5, 4, 6, 1], [6, 5, 7, 2], [7, 6, 4, 3]];
 
-const HEX_FACES: [[usize; 4]; 6] = [
-    [0, 4, 7, 3],
-    [1, 2, 6, 5],
-    [0, 1, 5, 4],
-    [3, 7, 6, 2],
-    [0, 3, 2, 1],
-    [4, 5, 6, 7],
-];
+const HEX_FACES: [[usize; 4]; 6] = [[0, 4, 7, 3], [1, 2, 6, 5], [0, 1, 5, 4], [3, 7, 6, 2], [0, 3, 2, 1], [4, 5, 6, 7]];
 
 const TET_FACES: [[usize; 3]; 4] = [[0, 2, 1], [0, 1, 3], [1, 2, 3], [0, 3, 2]];
 
@@ -37,10 +22,9 @@ fn determinant(mesh: &Mesh, [a, b, c, d]: [u32; 4]) -> f64 {
 pub fn smallest_determinant(mesh: &Mesh) -> f64 {
     let all: Vec<f64> = match &mesh.cells {
         Cells::Tetrahedra(cells) => cells.iter().map(|c| determinant(mesh, *c)).collect(),
-        Cells::Hexahedra(cells) => cells
-            .iter()
-            .flat_map(|c| CORNERS.map(|corner| determinant(mesh, corner.map(|i| c[i]))))
-            .collect(),
+        Cells::Hexahedra(cells) => {
+            cells.iter().flat_map(|c| CORNERS.map(|corner| determinant(mesh, corner.map(|i| c[i])))).collect()
+        }
         _ => panic!("a surface has no determinants"),
     };
     all.into_iter().fold(f64::INFINITY, f64::min)
@@ -50,13 +34,8 @@ pub fn smallest_determinant(mesh: &Mesh) -> f64 {
 pub fn volume(mesh: &Mesh) -> f64 {
     let surface = boundary(mesh);
     let faces = (0..surface.cells.len()).map(|i| {
-        let p: Vec<Vector3<f64>> = face(&surface, i)
-            .iter()
-            .map(|v| surface.points[*v as usize].coords)
-            .collect();
-        (1..p.len() - 1)
-            .map(|k| p[0].cross(&p[k]).dot(&p[k + 1]))
-            .sum::<f64>()
+        let p: Vec<Vector3<f64>> = face(&surface, i).iter().map(|v| surface.points[*v as usize].coords).collect();
+        (1..p.len() - 1).map(|k| p[0].cross(&p[k]).dot(&p[k + 1])).sum::<f64>()
     });
     faces.sum::<f64>() / 6.0
 }
@@ -76,10 +55,7 @@ pub fn boundary(mesh: &Mesh) -> Mesh {
 }
 
 /// The faces that belong to one cell only; a face of two must be seen from both sides.
-fn open<const C: usize, const F: usize, const N: usize>(
-    cells: &[[u32; C]],
-    faces: [[usize; F]; N],
-) -> Vec<[u32; F]> {
+fn open<const C: usize, const F: usize, const N: usize>(cells: &[[u32; C]], faces: [[usize; F]; N]) -> Vec<[u32; F]> {
     let mut seen: BTreeMap<[u32; F], Vec<[u32; F]>> = BTreeMap::new();
     for cell in cells {
         for face in faces.map(|f| f.map(|i| cell[i])) {
@@ -88,14 +64,8 @@ fn open<const C: usize, const F: usize, const N: usize>(
             seen.entry(key).or_default().push(face);
         }
     }
-    assert!(
-        seen.values().all(|f| f.len() <= 2),
-        "a face has three cells"
-    );
-    seen.into_values()
-        .filter(|f| f.len() == 1)
-        .map(|f| f[0])
-        .collect()
+    assert!(seen.values().all(|f| f.len() <= 2), "a face has three cells");
+    seen.into_values().filter(|f| f.len() == 1).map(|f| f[0]).collect()
 }
 
 /// Every face of a surface from its smallest vertex on, sorted.
@@ -127,10 +97,7 @@ fn directed_edges(mesh: &Mesh) -> BTreeMap<(u32, u32), usize> {
 /// Each edge has exactly two faces that agree in orientation, each vertex exactly one fan.
 pub fn assert_manifold(mesh: &Mesh) {
     let edges = directed_edges(mesh);
-    assert!(
-        edges.keys().all(|(a, b)| edges.contains_key(&(*b, *a))),
-        "open edge"
-    );
+    assert!(edges.keys().all(|(a, b)| edges.contains_key(&(*b, *a))), "open edge");
     // Around a vertex, each face leads from its outgoing edge to the one after its incoming edge.
     let mut faces_at = vec![0; mesh.points.len()];
     let mut first = vec![None; mesh.points.len()];
@@ -205,9 +172,7 @@ pub fn corners(mesh: &Mesh) -> usize {
     let mut axes = vec![0_u8; mesh.points.len()];
     for (i, label) in labels.iter().enumerate() {
         let at = |v: &u32| *v as usize;
-        face(mesh, i)
-            .iter()
-            .for_each(|v| axes[at(v)] |= 1 << (label / 2));
+        face(mesh, i).iter().for_each(|v| axes[at(v)] |= 1 << (label / 2));
     }
     axes.iter().filter(|a| **a == 0b111).count()
 }

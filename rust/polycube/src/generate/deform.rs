@@ -64,12 +64,7 @@ impl Deformation {
                 }))
             }
             Self::Twist { center, axis, rate } => twist(point, center, axis, rate),
-            Self::Bend {
-                center,
-                along,
-                towards,
-                curvature,
-            } => {
+            Self::Bend { center, along, towards, curvature } => {
                 let mut moved = point;
                 let radius = 1.0 / curvature - (point[towards] - center[towards]);
                 let (sin, cos) = turn((point[along] - center[along]) * curvature);
@@ -94,12 +89,7 @@ impl Deformation {
                 across.fold(along, |product, _| product * self.factor(point))
             }
             Self::Twist { .. } => 1.0,
-            Self::Bend {
-                center,
-                along,
-                towards,
-                curvature,
-            } => {
+            Self::Bend { center, along, towards, curvature } => {
                 let half = 0.5 * curvature * (point[along] - center[along]);
                 (1.0 - curvature * (point[towards] - center[towards])) / (1.0 + half * half)
             }
@@ -108,10 +98,7 @@ impl Deformation {
 
     /// The sums of powers of the offset from the centre (in cores) for the cube and the ball.
     fn sums(&self, point: Point) -> [f64; 2] {
-        let Self::Round {
-            center, axes, core, ..
-        } = *self
-        else {
+        let Self::Round { center, axes, core, .. } = *self else {
             return [0.0; 2];
         };
         SQUARINGS.map(|squarings| {
@@ -179,26 +166,12 @@ mod tests {
     #[test]
     fn determinants_are_those_of_the_map_and_positive() {
         let center = [1.0, 2.0, 3.0];
-        let round = |axes, strength| Deformation::Round {
-            center,
-            axes,
-            strength,
-            core: 2.0,
-        };
+        let round = |axes, strength| Deformation::Round { center, axes, strength, core: 2.0 };
         let maps = [
             round([true; 3], 0.9),
             round([true, true, false], 1.0),
-            Deformation::Twist {
-                center,
-                axis: 1,
-                rate: 0.05,
-            },
-            Deformation::Bend {
-                center,
-                along: 2,
-                towards: 0,
-                curvature: -0.03,
-            },
+            Deformation::Twist { center, axis: 1, rate: 0.05 },
+            Deformation::Bend { center, along: 2, towards: 0, curvature: -0.03 },
         ];
         let mut rng = SplitMix64::new(1);
         for map in maps {

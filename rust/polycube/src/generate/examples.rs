@@ -28,12 +28,7 @@ pub enum Example {
 
 impl Example {
     /// Every example.
-    pub const ALL: [Self; 4] = [
-        Self::CubeSpikes,
-        Self::SteppedL,
-        Self::Ring,
-        Self::DoubleTorus,
-    ];
+    pub const ALL: [Self; 4] = [Self::CubeSpikes, Self::SteppedL, Self::Ring, Self::DoubleTorus];
 
     /// The solid cells of the polycube.
     ///
@@ -54,11 +49,7 @@ impl Example {
             Self::CubeSpikes => vec![round([true; 3], 0.9, 6.0), twist(2, 0.012)],
             Self::SteppedL => vec![twist(2, 0.012), bend(1, 0, 0.015), bend(2, 1, 0.012)],
             Self::Ring => vec![round([true, true, false], 0.95, 6.0), bend(0, 2, 0.012)],
-            Self::DoubleTorus => vec![
-                round([true, true, false], 0.8, 20.0),
-                twist(0, 0.018),
-                bend(0, 2, 0.016),
-            ],
+            Self::DoubleTorus => vec![round([true, true, false], 0.8, 20.0), twist(0, 0.018), bend(0, 2, 0.016)],
         }
     }
 }
@@ -88,29 +79,15 @@ impl FromStr for Example {
 }
 
 fn round(axes: [bool; 3], strength: f64, core: f64) -> Deformation {
-    Deformation::Round {
-        center: [0.0; 3],
-        axes,
-        strength,
-        core,
-    }
+    Deformation::Round { center: [0.0; 3], axes, strength, core }
 }
 
 fn twist(axis: usize, rate: f64) -> Deformation {
-    Deformation::Twist {
-        center: [0.0; 3],
-        axis,
-        rate,
-    }
+    Deformation::Twist { center: [0.0; 3], axis, rate }
 }
 
 fn bend(along: usize, towards: usize, curvature: f64) -> Deformation {
-    Deformation::Bend {
-        center: [0.0; 3],
-        along,
-        towards,
-        curvature,
-    }
+    Deformation::Bend { center: [0.0; 3], along, towards, curvature }
 }
 
 /// Steps of smoothing that every shape gets.
@@ -187,19 +164,13 @@ pub fn cube_spikes(seed: u64) -> Result<Voxels> {
 /// None; see [`Example::voxels`].
 pub fn stepped_l(seed: u64) -> Result<Voxels> {
     let mut shifts = Shifts::new(seed);
-    let mut boxes = vec![
-        Cuboid::new([-22, -9, -22], [22, 9, -8]),
-        Cuboid::new([-22, -9, -8], [-8, 9, 22]),
-    ];
+    let mut boxes = vec![Cuboid::new([-22, -9, -22], [22, 9, -8]), Cuboid::new([-22, -9, -8], [-8, 9, 22])];
     // Stairs in the nook: the lower one reaches out on the foot, the higher one up the arm.
     for (reach, height) in [(10, 0), (0, 10)] {
         let max = [reach + shifts.next(), 9, height + shifts.next()];
         boxes.push(Cuboid::new([-8, -9, -8], max));
     }
-    for lug in [
-        Cuboid::new([9, 9, -18], [17, 16, -12]),
-        Cuboid::new([-18, 9, 8], [-12, 16, 17]),
-    ] {
+    for lug in [Cuboid::new([9, 9, -18], [17, 16, -12]), Cuboid::new([-18, 9, 8], [-12, 16, 17])] {
         boxes.push(shifts.across(lug, 1));
         boxes.push(shifts.across(lug.moved([0, -25, 0]), 1));
     }
@@ -272,11 +243,7 @@ mod tests {
                 check::assert_manifold(&mesh);
                 assert_eq!(voxels.components(), 1);
                 assert_eq!(check::euler(&mesh), 2 - 2 * genus, "{e}");
-                assert_eq!(
-                    (voxels.corners(), check::charts(&mesh)),
-                    (corners, charts),
-                    "{e}"
-                );
+                assert_eq!((voxels.corners(), check::charts(&mesh)), (corners, charts), "{e}");
             }
         }
     }
@@ -336,9 +303,6 @@ mod tests {
         for e in Example::ALL {
             assert_eq!(e.to_string().parse::<Example>().unwrap(), e);
         }
-        assert_eq!(
-            "cube".parse::<Example>().unwrap_err().kind,
-            ErrorKind::Option
-        );
+        assert_eq!("cube".parse::<Example>().unwrap_err().kind, ErrorKind::Option);
     }
 }

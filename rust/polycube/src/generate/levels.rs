@@ -14,11 +14,7 @@ use crate::mesh::Mesh;
 /// # Errors
 /// [`ErrorKind::Unsupported`] for a volume; [`ErrorKind::Mismatch`] when there is not one label
 /// per face; [`ErrorKind::Polycube`] at a label outside 0..5.
-pub fn move_levels(
-    mesh: &Mesh,
-    labels: &[i8],
-    mut offset: impl FnMut(usize) -> f64,
-) -> Result<Mesh> {
+pub fn move_levels(mesh: &Mesh, labels: &[i8], mut offset: impl FnMut(usize) -> f64) -> Result<Mesh> {
     check(mesh, labels)?;
     let (facet, count) = facets(mesh, labels);
     let offsets: Vec<f64> = (0..count).map(&mut offset).collect();
@@ -39,8 +35,7 @@ pub fn move_levels(
 pub fn perturb(mesh: &Mesh, labels: &[i8], fraction: f64, seed: u64) -> Result<Mesh> {
     if !(0.0..0.5).contains(&fraction) {
         let message = format!("facets cannot move by {fraction} of the shortest edge");
-        return Err(Error::new(ErrorKind::Option, message)
-            .remedy("use a fraction from 0 up to, but below, 0.5"));
+        return Err(Error::new(ErrorKind::Option, message).remedy("use a fraction from 0 up to, but below, 0.5"));
     }
     check(mesh, labels)?;
     let range = fraction * shortest_edge(mesh);
@@ -58,11 +53,9 @@ fn check(mesh: &Mesh, labels: &[i8]) -> Result<()> {
         return Err(Error::new(ErrorKind::Mismatch, message).remedy("give one label per face"));
     }
     match labels.iter().position(|l| !(0..6).contains(l)) {
-        Some(i) => Err(
-            Error::new(ErrorKind::Polycube, format!("{} is no label", labels[i]))
-                .at(Place::Face(i as u32))
-                .remedy("labels are 0 to 5 for +X -X +Y -Y +Z -Z"),
-        ),
+        Some(i) => Err(Error::new(ErrorKind::Polycube, format!("{} is no label", labels[i]))
+            .at(Place::Face(i as u32))
+            .remedy("labels are 0 to 5 for +X -X +Y -Y +Z -Z")),
         None => Ok(()),
     }
 }
@@ -72,16 +65,11 @@ fn check(mesh: &Mesh, labels: &[i8]) -> Result<()> {
 fn facets(mesh: &Mesh, labels: &[i8]) -> (Vec<Option<usize>>, usize) {
     let keys = |i: usize| {
         let axis = labels[i] as usize / 2;
-        mesh.cells
-            .cell(i)
-            .iter()
-            .map(move |v| 3 * *v as usize + axis)
+        mesh.cells.cell(i).iter().map(move |v| 3 * *v as usize + axis)
     };
     let mut sets = Sets::new(3 * mesh.points.len());
     for i in 0..labels.len() {
-        keys(i)
-            .zip(keys(i).skip(1))
-            .for_each(|(a, b)| sets.join(a, b));
+        keys(i).zip(keys(i).skip(1)).for_each(|(a, b)| sets.join(a, b));
     }
     let mut number = vec![None; 3 * mesh.points.len()];
     let mut facet = number.clone();
@@ -102,9 +90,7 @@ struct Sets {
 
 impl Sets {
     fn new(count: usize) -> Self {
-        Self {
-            parent: (0..count).collect(),
-        }
+        Self { parent: (0..count).collect() }
     }
 
     fn root(&mut self, mut i: usize) -> usize {

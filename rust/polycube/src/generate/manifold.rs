@@ -221,9 +221,7 @@ mod tests {
         let mut root: Vec<usize> = (0..6).collect();
         for [a, b] in arcs {
             let (from, to) = (root[a], root[b]);
-            root.iter_mut()
-                .filter(|r| **r == from)
-                .for_each(|r| *r = to);
+            root.iter_mut().filter(|r| **r == from).for_each(|r| *r = to);
         }
         let mut curves: Vec<usize> = (0..6).filter(|i| degree[*i] > 0).map(|i| root[i]).collect();
         curves.sort_unstable();
@@ -234,11 +232,7 @@ mod tests {
     #[test]
     fn all_patterns_agree_with_the_curves_on_a_sphere() {
         for pattern in 0..=u8::MAX {
-            assert_eq!(
-                is_disc(pattern),
-                is_disc_by_curves(pattern),
-                "{pattern:08b}"
-            );
+            assert_eq!(is_disc(pattern), is_disc_by_curves(pattern), "{pattern:08b}");
         }
     }
 
@@ -270,10 +264,7 @@ mod tests {
         assert_eq!(boxes(&[[0; 3]]).refined(0.25).unwrap().corners(), 8);
         // An L of three cubes has 12 corners; a tripod of four has 12 at its tips, 5 between its legs.
         assert_eq!(boxes(&[[0; 3], [1, 0, 0], [0, 1, 0]]).corners(), 12);
-        assert_eq!(
-            boxes(&[[0; 3], [1, 0, 0], [0, 1, 0], [0, 0, 1]]).corners(),
-            17
-        );
+        assert_eq!(boxes(&[[0; 3], [1, 0, 0], [0, 1, 0], [0, 0, 1]]).corners(), 17);
         assert_eq!(boxes(&[]).corners(), 0);
     }
 

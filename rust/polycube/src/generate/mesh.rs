@@ -21,12 +21,7 @@ pub enum CellKind {
 
 impl CellKind {
     /// Every kind.
-    pub const ALL: [Self; 4] = [
-        Self::Triangles,
-        Self::Quads,
-        Self::Tetrahedra,
-        Self::Hexahedra,
-    ];
+    pub const ALL: [Self; 4] = [Self::Triangles, Self::Quads, Self::Tetrahedra, Self::Hexahedra];
 }
 
 impl fmt::Display for CellKind {
@@ -54,27 +49,14 @@ impl FromStr for CellKind {
 }
 
 /// The octants at the corners of each face (−X +X −Y +Y −Z +Z), counter-clockwise from outside.
-const FACES: [[usize; 4]; 6] = [
-    [0, 4, 6, 2],
-    [1, 3, 7, 5],
-    [0, 1, 5, 4],
-    [2, 6, 7, 3],
-    [0, 2, 3, 1],
-    [4, 5, 7, 6],
-];
+const FACES: [[usize; 4]; 6] = [[0, 4, 6, 2], [1, 3, 7, 5], [0, 1, 5, 4], [2, 6, 7, 3], [0, 2, 3, 1], [4, 5, 7, 6]];
 
 /// The octants at the corners of a hexahedron in VTK's order.
 pub(super) const HEXAHEDRON: [usize; 8] = [0, 1, 3, 2, 4, 5, 7, 6];
 
 /// Five tetrahedra of a cell whose octant 0 is even; its diagonals join even octants (0, 3, 5, 6).
 /// An odd cell is its mirror image along X.
-pub(super) const TETRAHEDRA: [[usize; 4]; 5] = [
-    [0, 3, 6, 5],
-    [1, 3, 0, 5],
-    [2, 0, 3, 6],
-    [4, 0, 6, 5],
-    [7, 3, 5, 6],
-];
+pub(super) const TETRAHEDRA: [[usize; 4]; 5] = [[0, 3, 6, 5], [1, 3, 0, 5], [2, 0, 3, 6], [4, 0, 6, 5], [7, 3, 5, 6]];
 
 /// Cells by the lattice vertices they join: `x + nx (y + ny z)` for planes `x`, `y`, `z`.
 pub(super) struct Lattice<'a> {
@@ -150,11 +132,7 @@ impl<'a> Lattice<'a> {
 
     fn triangles(&self) -> Vec<[u32; 3]> {
         let split = |[a, b, c, d]: [u32; 4]| {
-            if self.is_even(a) {
-                [[a, b, c], [a, c, d]]
-            } else {
-                [[a, b, d], [b, c, d]]
-            }
+            if self.is_even(a) { [[a, b, c], [a, c, d]] } else { [[a, b, d], [b, c, d]] }
         };
         self.quads().into_iter().flat_map(split).collect()
     }
@@ -186,10 +164,7 @@ pub(super) fn compact(points: &[Point], cells: Cells) -> Mesh {
         }
     }
     let cells = map_vertices(cells, |v| number[v as usize]);
-    Mesh {
-        points: kept,
-        cells,
-    }
+    Mesh { points: kept, cells }
 }
 
 fn map_vertices(cells: Cells, new: impl Fn(u32) -> u32) -> Cells {
@@ -219,10 +194,7 @@ impl Voxels {
         let lattice = Lattice::new(&fine)?;
         let cells = lattice.cells(kind);
         if cells.is_empty() {
-            return Err(Error::new(
-                ErrorKind::Mesh,
-                "no cell of the polycube is solid",
-            ));
+            return Err(Error::new(ErrorKind::Mesh, "no cell of the polycube is solid"));
         }
         let points: Vec<Point> = (0..lattice.len()).map(|v| lattice.point(v)).collect();
         Ok(compact(&points, cells))
@@ -236,10 +208,7 @@ mod tests {
     use super::*;
 
     fn bracket() -> Voxels {
-        let boxes = [
-            Cuboid::new([-2, 0, 0], [6, 4, 2]),
-            Cuboid::new([-2, 0, 2], [0, 4, 7]),
-        ];
+        let boxes = [Cuboid::new([-2, 0, 0], [6, 4, 2]), Cuboid::new([-2, 0, 2], [0, 4, 7])];
         let hole = Cuboid::new([2, 1, -1], [4, 3, 3]);
         Voxels::from_difference(&boxes, &[hole]).unwrap()
     }
@@ -251,10 +220,7 @@ mod tests {
             for step in [0.75, 1.0, 100.0] {
                 let mesh = voxels.mesh(kind, step).unwrap();
                 let volume = check::volume(&mesh);
-                assert!(
-                    (volume - voxels.volume()).abs() < 1e-9,
-                    "{kind} {step}: {volume}"
-                );
+                assert!((volume - voxels.volume()).abs() < 1e-9, "{kind} {step}: {volume}");
             }
         }
     }
@@ -271,19 +237,13 @@ mod tests {
     #[test]
     fn volume_cells_are_positive_and_conforming() {
         let voxels = bracket();
-        for (volume, surface) in [
-            (CellKind::Tetrahedra, CellKind::Triangles),
-            (CellKind::Hexahedra, CellKind::Quads),
-        ] {
+        for (volume, surface) in [(CellKind::Tetrahedra, CellKind::Triangles), (CellKind::Hexahedra, CellKind::Quads)] {
             let mesh = voxels.mesh(volume, 1.0).unwrap();
             assert!(check::smallest_determinant(&mesh) > 0.5);
             let boundary = check::boundary(&mesh);
             let expected = voxels.mesh(surface, 1.0).unwrap();
             assert_eq!(boundary.cells.len(), expected.cells.len());
-            assert_eq!(
-                check::sorted_faces(&boundary),
-                check::sorted_faces(&expected)
-            );
+            assert_eq!(check::sorted_faces(&boundary), check::sorted_faces(&expected));
         }
     }
 
@@ -304,9 +264,6 @@ mod tests {
             let none = Voxels::from_boxes(&[]).unwrap().mesh(kind, 1.0);
             assert_eq!(none.unwrap_err().kind, ErrorKind::Mesh);
         }
-        assert_eq!(
-            "prism".parse::<CellKind>().unwrap_err().kind,
-            ErrorKind::Option
-        );
+        assert_eq!("prism".parse::<CellKind>().unwrap_err().kind, ErrorKind::Option);
     }
 }

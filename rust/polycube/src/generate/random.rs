@@ -22,15 +22,14 @@ const ROUNDS: usize = 400;
 pub fn random_polycube(seed: u64, boxes: usize, extent: i64) -> Result<Voxels> {
     if boxes == 0 || !(2..=1000).contains(&extent) {
         let message = format!("{boxes} boxes in an extent of {extent} make no random polycube");
-        return Err(Error::new(ErrorKind::Option, message)
-            .remedy("ask for one box at least, and an extent from 2 to 1000"));
+        return Err(
+            Error::new(ErrorKind::Option, message).remedy("ask for one box at least, and an extent from 2 to 1000")
+        );
     }
     let mut rng = SplitMix64::new(seed);
     let side = [1, (extent / 2).max(1)];
     let mut voxels = unit_grid(extent)?;
-    let boxes: Vec<Cuboid> = (0..boxes)
-        .map(|_| random_box(&mut rng, extent, side))
-        .collect();
+    let boxes: Vec<Cuboid> = (0..boxes).map(|_| random_box(&mut rng, extent, side)).collect();
     boxes.iter().for_each(|b| voxels.set(b, true));
     for b in boxes.iter().filter(|_| rng.one_in(4)).collect::<Vec<_>>() {
         voxels.set(&random_hole(&mut rng, b, extent), false);

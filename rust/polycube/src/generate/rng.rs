@@ -63,10 +63,6 @@ mod tests {
         assert_eq!(seen.iter().max(), Some(&2));
         assert_eq!(rng.between(3, 3), 3);
         assert_eq!(rng.between(3, 2), 3);
-        assert!(
-            (0..200)
-                .map(|_| rng.unit())
-                .all(|u| (0.0..1.0).contains(&u))
-        );
+        assert!((0..200).map(|_| rng.unit()).all(|u| (0.0..1.0).contains(&u)));
     }
 }

@@ -36,19 +36,11 @@ impl Body {
             let octants = lattice.octants(cell);
             frames.extend((0..8).map(|o| corner(o).map(|i| octants[i])));
             frames.push(middle(cell).map(|i| octants[i]));
-            for (o, v) in octants
-                .iter()
-                .enumerate()
-                .filter(|v| !on_surface[*v.1 as usize])
-            {
+            for (o, v) in octants.iter().enumerate().filter(|v| !on_surface[*v.1 as usize]) {
                 neighbours[*v as usize].extend([1, 2, 4].map(|axis| octants[o ^ axis]));
             }
         }
-        Self {
-            frames,
-            neighbours,
-            on_surface,
-        }
+        Self { frames, neighbours, on_surface }
     }
 
     /// Smooths the surface of `start` by `steps` steps of averaging, and lets the inside follow.
@@ -72,9 +64,8 @@ impl Body {
                 return points[v];
             }
             let share = 1.0 / around.len() as f64;
-            let sum = |f: &dyn Fn(usize) -> Vector3<f64>| {
-                around.iter().map(|n| f(*n as usize)).sum::<Vector3<f64>>() * share
-            };
+            let sum =
+                |f: &dyn Fn(usize) -> Vector3<f64>| around.iter().map(|n| f(*n as usize)).sum::<Vector3<f64>>() * share;
             if self.on_surface[v] {
                 points[v] + 0.5 * (sum(&|n| points[n].coords) - points[v].coords)
             } else {
@@ -117,11 +108,7 @@ impl Body {
 
 /// Octant `o` of a cell with its neighbours along the axes, right-handed.
 fn corner(o: usize) -> [usize; 4] {
-    if o.count_ones().is_multiple_of(2) {
-        [o, o ^ 1, o ^ 2, o ^ 4]
-    } else {
-        [o, o ^ 2, o ^ 1, o ^ 4]
-    }
+    if o.count_ones().is_multiple_of(2) { [o, o ^ 1, o ^ 2, o ^ 4] } else { [o, o ^ 2, o ^ 1, o ^ 4] }
 }
 
 /// The octants of the tetrahedron in the middle of a cell; the others are frames of corners.

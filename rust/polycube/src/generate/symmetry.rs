@@ -7,14 +7,7 @@ use nalgebra::{Matrix3, Vector3};
 /// The 48 symmetries of the cube: every signed permutation of the axes, the identity first. The
 /// 24 with determinant 1 are rotations, the others contain a reflection.
 pub fn symmetries() -> [Matrix3<f64>; 48] {
-    const AXES: [[usize; 3]; 6] = [
-        [0, 1, 2],
-        [1, 2, 0],
-        [2, 0, 1],
-        [0, 2, 1],
-        [1, 0, 2],
-        [2, 1, 0],
-    ];
+    const AXES: [[usize; 3]; 6] = [[0, 1, 2], [1, 2, 0], [2, 0, 1], [0, 2, 1], [1, 0, 2], [2, 1, 0]];
     std::array::from_fn(|i| {
         let (axes, signs) = (AXES[i / 8], i % 8);
         let mut matrix = Matrix3::zeros();
@@ -29,11 +22,7 @@ pub fn symmetries() -> [Matrix3<f64>; 48] {
 /// so that surfaces still look outwards and volumes stay positive.
 pub fn transform(mesh: &Mesh, matrix: &Matrix3<f64>) -> Mesh {
     let points = mesh.points.iter().map(|p| matrix * p).collect();
-    let cells = if matrix.determinant() < 0.0 {
-        flipped(&mesh.cells)
-    } else {
-        mesh.cells.clone()
-    };
+    let cells = if matrix.determinant() < 0.0 { flipped(&mesh.cells) } else { mesh.cells.clone() };
     Mesh { points, cells }
 }
 
@@ -42,9 +31,7 @@ fn flipped(cells: &Cells) -> Cells {
     match cells {
         Cells::Triangles(c) => Cells::Triangles(c.iter().map(|[a, b, c]| [*a, *c, *b]).collect()),
         Cells::Quads(c) => Cells::Quads(c.iter().map(|[a, b, c, d]| [*a, *d, *c, *b]).collect()),
-        Cells::Tetrahedra(c) => {
-            Cells::Tetrahedra(c.iter().map(|[a, b, c, d]| [*a, *c, *b, *d]).collect())
-        }
+        Cells::Tetrahedra(c) => Cells::Tetrahedra(c.iter().map(|[a, b, c, d]| [*a, *c, *b, *d]).collect()),
         Cells::Hexahedra(c) => {
             let order = [0, 3, 2, 1, 4, 7, 6, 5];
             Cells::Hexahedra(c.iter().map(|c| order.map(|i: usize| c[i])).collect())
@@ -71,10 +58,7 @@ pub fn scale(mesh: &Mesh, factor: f64) -> Result<Mesh> {
 }
 
 fn with_points(mesh: &Mesh, new: impl Fn(&Point) -> Point) -> Mesh {
-    Mesh {
-        points: mesh.points.iter().map(new).collect(),
-        cells: mesh.cells.clone(),
-    }
+    Mesh { points: mesh.points.iter().map(new).collect(), cells: mesh.cells.clone() }
 }
 
 #[cfg(test)]

@@ -125,17 +125,13 @@ impl Voxels {
     /// Total volume of the solid cells.
     pub fn volume(&self) -> f64 {
         let width = |axis: usize, i: usize| self.planes[axis][i + 1] - self.planes[axis][i];
-        self.cells()
-            .map(|c| width(0, c[0]) * width(1, c[1]) * width(2, c[2]))
-            .sum()
+        self.cells().map(|c| width(0, c[0]) * width(1, c[1]) * width(2, c[2])).sum()
     }
 
     /// The solid cells, X running fastest, Z slowest.
     pub fn cells(&self) -> impl Iterator<Item = [usize; 3]> + '_ {
         let solid = |i: &usize| self.solid[*i];
-        (0..self.solid.len())
-            .filter(solid)
-            .map(|i| self.coordinates(i))
+        (0..self.solid.len()).filter(solid).map(|i| self.coordinates(i))
     }
 
     pub(super) fn index(&self, c: [usize; 3]) -> usize {
@@ -161,17 +157,12 @@ impl Voxels {
 
     /// The cells that start at the `kept` planes and reach to the next kept one.
     fn resampled(&self, kept: &[Vec<usize>; 3]) -> Self {
-        let planes: [Vec<f64>; 3] =
-            std::array::from_fn(|a| kept[a].iter().map(|i| self.planes[a][*i]).collect());
+        let planes: [Vec<f64>; 3] = std::array::from_fn(|a| kept[a].iter().map(|i| self.planes[a][*i]).collect());
         let starts = [0, 1, 2].map(|a| &kept[a][..kept[a].len().saturating_sub(1)]);
         let mut solid = Vec::new();
         for z in starts[2] {
             for y in starts[1] {
-                solid.extend(
-                    starts[0]
-                        .iter()
-                        .map(|x| self.solid[self.index([*x, *y, *z])]),
-                );
+                solid.extend(starts[0].iter().map(|x| self.solid[self.index([*x, *y, *z])]));
             }
         }
         Self { planes, solid }
@@ -201,9 +192,7 @@ impl Voxels {
             let message = format!("the step {step} is not a positive length");
             return Err(Error::new(ErrorKind::Option, message));
         }
-        let parts = |axis: usize, i: usize| {
-            ((self.planes[axis][i + 1] - self.planes[axis][i]) / step).ceil()
-        };
+        let parts = |axis: usize, i: usize| ((self.planes[axis][i + 1] - self.planes[axis][i]) / step).ceil();
         let size = self.size();
         let total = |axis: usize| (0..size[axis]).map(|i| parts(axis, i)).sum::<f64>();
         if (0..3).map(total).product::<f64>() > MAX_CELLS as f64 {
@@ -231,18 +220,12 @@ fn check(b: &Cuboid) -> Result<()> {
     let limit = 1_i64 << 53;
     if (0..3).any(|a| b.min[a] >= b.max[a]) {
         let message = format!("the box from {:?} to {:?} is empty", b.min, b.max);
-        return Err(Error::new(ErrorKind::Option, message)
-            .remedy("give its smaller corner first, and a width on every axis"));
+        return Err(
+            Error::new(ErrorKind::Option, message).remedy("give its smaller corner first, and a width on every axis")
+        );
     }
-    if b.min
-        .iter()
-        .chain(&b.max)
-        .any(|x| x.unsigned_abs() > limit as u64)
-    {
-        return Err(Error::new(
-            ErrorKind::Option,
-            "a coordinate of a box is beyond ±2^53",
-        ));
+    if b.min.iter().chain(&b.max).any(|x| x.unsigned_abs() > limit as u64) {
+        return Err(Error::new(ErrorKind::Option, "a coordinate of a box is beyond ±2^53"));
     }
     Ok(())
 }

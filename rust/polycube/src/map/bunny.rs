@@ -24,10 +24,7 @@ fn uneven(axis: usize, x: f64) -> f64 {
 }
 
 fn largest_step(mesh: &Mesh, points: &[Point]) -> f64 {
-    mesh.points
-        .iter()
-        .zip(points)
-        .fold(0.0, |m, (a, b)| m.max((a - b).amax()))
+    mesh.points.iter().zip(points).fold(0.0, |m, (a, b)| m.max((a - b).amax()))
 }
 
 #[test]
@@ -36,34 +33,14 @@ fn real_polycubes_stay_and_move() {
         let context = Context::default();
         let same = morph(&mesh, &levels(&mesh, |_, x| x), &context).unwrap();
         assert!(largest_step(&mesh, &same) < 1e-12, "{name}");
-        let affine = morph(
-            &mesh,
-            &levels(&mesh, |k, x| (2.0 + k as f64) * x - 1.0),
-            &context,
-        )
-        .unwrap();
-        let expected = mesh
-            .points
-            .iter()
-            .map(|p| Point::new(2.0 * p.x - 1.0, 3.0 * p.y - 1.0, 4.0 * p.z - 1.0));
-        let span = 4.0
-            * mesh
-                .points
-                .iter()
-                .fold(0.0_f64, |m, p| m.max(p.coords.amax()));
-        let error = expected
-            .zip(&affine)
-            .fold(0.0_f64, |m, (a, b)| m.max((a - b).amax()));
-        println!(
-            "{name}: affine map missed by {:.1e} of the size",
-            error / span
-        );
+        let affine = morph(&mesh, &levels(&mesh, |k, x| (2.0 + k as f64) * x - 1.0), &context).unwrap();
+        let expected = mesh.points.iter().map(|p| Point::new(2.0 * p.x - 1.0, 3.0 * p.y - 1.0, 4.0 * p.z - 1.0));
+        let span = 4.0 * mesh.points.iter().fold(0.0_f64, |m, p| m.max(p.coords.amax()));
+        let error = expected.zip(&affine).fold(0.0_f64, |m, (a, b)| m.max((a - b).amax()));
+        println!("{name}: affine map missed by {:.1e} of the size", error / span);
         assert!(error < 1e-8 * span, "{name}");
         let moved = morph(&mesh, &levels(&mesh, uneven), &context).unwrap();
-        let moved = Mesh {
-            points: moved,
-            cells: mesh.cells.clone(),
-        };
+        let moved = Mesh { points: moved, cells: mesh.cells.clone() };
         let flips = flipped(&moved, &labels(&mesh)).unwrap();
         let before = flipped(&mesh, &labels(&mesh)).unwrap();
         println!(
@@ -81,27 +58,16 @@ fn real_polycubes_stay_and_move() {
 #[test]
 #[ignore = "prints time and memory; run in release mode"]
 fn time_and_memory() {
-    for (name, mesh) in real_polycubes()
-        .into_iter()
-        .filter(|(name, _)| name.contains("bunny"))
-    {
+    for (name, mesh) in real_polycubes().into_iter().filter(|(name, _)| name.contains("bunny")) {
         let start = Instant::now();
         let faces = mesh.cells.boundary().unwrap().len();
-        println!(
-            "{name}: {} tetrahedra, {faces} boundary faces in {:.0?}",
-            mesh.cells.len(),
-            start.elapsed()
-        );
+        println!("{name}: {} tetrahedra, {faces} boundary faces in {:.0?}", mesh.cells.len(), start.elapsed());
         let fixed = levels(&mesh, uneven);
         for _ in 0..3 {
             let before = resident("VmRSS");
             let start = Instant::now();
             morph(&mesh, &fixed, &Context::default()).unwrap();
-            println!(
-                "morph in {:.0?}, resident {before} kB before, peak {} kB",
-                start.elapsed(),
-                resident("VmHWM")
-            );
+            println!("morph in {:.0?}, resident {before} kB before, peak {} kB", start.elapsed(), resident("VmHWM"));
         }
     }
 }
@@ -120,12 +86,7 @@ fn time_of_a_large_surface() {
         }
         let start = Instant::now();
         morph(&mesh, &fixed, &Context::default()).unwrap();
-        println!(
-            "{} surface vertices in {:.0?}, peak {} kB",
-            mesh.points.len(),
-            start.elapsed(),
-            resident("VmHWM")
-        );
+        println!("{} surface vertices in {:.0?}, peak {} kB", mesh.points.len(), start.elapsed(), resident("VmHWM"));
     }
 }
 
@@ -133,6 +94,5 @@ fn time_of_a_large_surface() {
 fn resident(key: &str) -> u64 {
     let status = std::fs::read_to_string("/proc/self/status").unwrap_or_default();
     let line = status.lines().find(|l| l.starts_with(key));
-    line.and_then(|l| l.split_ascii_whitespace().nth(1)?.parse().ok())
-        .unwrap_or(0)
+    line.and_then(|l| l.split_ascii_whitespace().nth(1)?.parse().ok()).unwrap_or(0)
 }

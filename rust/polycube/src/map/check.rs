@@ -14,10 +14,9 @@ pub(super) fn check_mesh(mesh: &Mesh) -> Result<()> {
     let outside = |&v: &u32| v as usize >= mesh.points.len();
     match (0..mesh.cells.len()).find(|&i| mesh.cells.cell(i).iter().any(outside)) {
         None => Ok(()),
-        Some(i) => Err(Error::new(
-            ErrorKind::Mesh,
-            format!("it uses a vertex beyond the last of {}", mesh.points.len()),
-        )
-        .at(Place::Cell(i as u32))),
+        Some(i) => {
+            Err(Error::new(ErrorKind::Mesh, format!("it uses a vertex beyond the last of {}", mesh.points.len()))
+                .at(Place::Cell(i as u32)))
+        }
     }
 }

@@ -19,16 +19,9 @@ pub(super) const CHUNK: usize = 1 << 13;
 /// linear elements, positive semidefinite for any triangulation, and only unclamped does it
 /// reproduce linear functions. What is clamped is the triangle: one thinner than [`THINNEST`],
 /// whose cotangents would run to infinity, counts as equilateral.
-pub(super) fn cotangent_weights(
-    points: &[Point],
-    triangles: &[[u32; 3]],
-    context: &Context,
-) -> Result<Rows> {
+pub(super) fn cotangent_weights(points: &[Point], triangles: &[[u32; 3]], context: &Context) -> Result<Rows> {
     let stars = Stars::new(points.len(), triangles);
-    let angles: Vec<_> = triangles
-        .iter()
-        .map(|t| cotangents(t.map(|v| points[v as usize])))
-        .collect();
+    let angles: Vec<_> = triangles.iter().map(|t| cotangents(t.map(|v| points[v as usize]))).collect();
     let mut rows = Rows::new();
     let mut row = Vec::new();
     for v in 0..points.len() {
@@ -36,12 +29,7 @@ pub(super) fn cotangent_weights(
             context.tick(v as f64 / points.len() as f64)?;
         }
         for &t in stars.of(v) {
-            spokes(
-                v as u32,
-                &triangles[t as usize],
-                &angles[t as usize],
-                &mut row,
-            );
+            spokes(v as u32, &triangles[t as usize], &angles[t as usize], &mut row);
         }
         rows.push(&mut row);
     }
@@ -87,19 +75,11 @@ mod tests {
     #[test]
     fn known_angles() {
         let half = 3.0_f64.sqrt() / 2.0;
-        let equilateral = [
-            Point::origin(),
-            Point::new(2.0, 0.0, 0.0),
-            Point::new(1.0, 2.0 * half, 0.0),
-        ];
+        let equilateral = [Point::origin(), Point::new(2.0, 0.0, 0.0), Point::new(1.0, 2.0 * half, 0.0)];
         for c in cotangents(equilateral) {
             assert!((c - 1.0 / 3.0_f64.sqrt()).abs() < 1e-15);
         }
-        let right = [
-            Point::origin(),
-            Point::new(0.0, 3.0, 0.0),
-            Point::new(0.0, 0.0, 4.0),
-        ];
+        let right = [Point::origin(), Point::new(0.0, 3.0, 0.0), Point::new(0.0, 0.0, 4.0)];
         for (c, expected) in cotangents(right).into_iter().zip([0.0, 0.75, 4.0 / 3.0]) {
             assert!((c - expected).abs() < 1e-15);
         }
@@ -107,8 +87,7 @@ mod tests {
 
     #[test]
     fn two_triangles_add_up_on_their_common_edge() {
-        let points =
-            [[0.0, 0.0], [1.0, 0.0], [1.0, 1.0], [0.0, 2.0]].map(|[x, y]| Point::new(x, y, 0.0));
+        let points = [[0.0, 0.0], [1.0, 0.0], [1.0, 1.0], [0.0, 2.0]].map(|[x, y]| Point::new(x, y, 0.0));
         let rows = weights(&points, &[[0, 1, 2], [0, 2, 3]]);
         // Opposite to 0-2: a right angle at 1, and 45 degrees at 3.
         assert!((rows.row(0).find(|e| e.0 == 2).unwrap().1 - 1.0).abs() < 1e-15);
@@ -118,18 +97,10 @@ mod tests {
     #[test]
     fn flat_triangles_count_as_equilateral() {
         let p = |x: f64| Point::new(x, 0.0, 0.0);
-        for points in [
-            [p(0.0), p(0.0), p(0.0)],
-            [p(0.0), p(1.0), p(2.0)],
-            [p(0.0), p(0.0), p(1.0)],
-        ] {
+        for points in [[p(0.0), p(0.0), p(0.0)], [p(0.0), p(1.0), p(2.0)], [p(0.0), p(0.0), p(1.0)]] {
             assert_eq!(cotangents(points), [1.0 / 3.0_f64.sqrt(); 3]);
         }
-        assert!(
-            weights(&[p(0.0), p(1.0)], &[[0, 0, 1]])
-                .row(0)
-                .all(|e| e.1.is_finite())
-        );
+        assert!(weights(&[p(0.0), p(1.0)], &[[0, 0, 1]]).row(0).all(|e| e.1.is_finite()));
     }
 
     proptest! {

@@ -67,10 +67,7 @@ enum Image {
 /// simplex is left to measure.
 pub fn distortion(from: &Mesh, to: &Mesh) -> Result<Distortion> {
     if from.cells != to.cells || from.points.len() != to.points.len() {
-        return Err(Error::new(
-            ErrorKind::Mismatch,
-            "the two meshes do not have the same cells",
-        ));
+        return Err(Error::new(ErrorKind::Mismatch, "the two meshes do not have the same cells"));
     }
     check_mesh(from)?;
     check_mesh(to)?;
@@ -81,25 +78,12 @@ pub fn distortion(from: &Mesh, to: &Mesh) -> Result<Distortion> {
     let number = |wanted: fn(&Image) -> bool| images.iter().filter(|i| wanted(i)).count();
     let degenerate = number(|i| matches!(i, Image::Degenerate));
     let inverted = number(|i| matches!(i, Image::Inverted));
-    let good = images
-        .into_iter()
-        .enumerate()
-        .filter_map(|(simplex, image)| match image {
-            Image::Good(measure, determinant, angle) => Some(Stretch {
-                simplex,
-                measure,
-                determinant,
-                angle,
-            }),
-            _ => None,
-        });
+    let good = images.into_iter().enumerate().filter_map(|(simplex, image)| match image {
+        Image::Good(measure, determinant, angle) => Some(Stretch { simplex, measure, determinant, angle }),
+        _ => None,
+    });
     let per_cell = count / from.cells.len().max(1);
-    let found = Distortion {
-        simplices: count,
-        degenerate,
-        inverted,
-        ..NONE
-    };
+    let found = Distortion { simplices: count, degenerate, inverted, ..NONE };
     means(&good.collect::<Vec<_>>(), per_cell, found)
 }
 
@@ -144,19 +128,14 @@ fn images<const K: usize>(
     image: fn([Point; K], [Point; K]) -> Image,
 ) -> Vec<Image> {
     let corners = |mesh: &Mesh, s: &[u32; K]| s.map(|v| mesh.points[v as usize]);
-    simplices
-        .iter()
-        .map(|s| image(corners(from, s), corners(to, s)))
-        .collect()
+    simplices.iter().map(|s| image(corners(from, s), corners(to, s))).collect()
 }
 
 /// By the metric: `‖J‖² = tr(G' G⁻¹)` for the Gram matrices `G` of two edges before and after.
 fn triangle(from: [Point; 3], to: [Point; 3]) -> Image {
     let gram = |p: [Point; 3]| {
         let (u, v) = (p[1] - p[0], p[2] - p[0]);
-        let longest = [u, v, u - v]
-            .iter()
-            .fold(0.0, |m: f64, e| m.max(e.norm_squared()));
+        let longest = [u, v, u - v].iter().fold(0.0, |m: f64, e| m.max(e.norm_squared()));
         let doubled = u.cross(&v).norm();
         (doubled > FLAT * longest).then(|| ([u.dot(&u), u.dot(&v), v.dot(&v)], doubled))
     };
@@ -176,10 +155,7 @@ fn tetrahedron(from: [Point; 4], to: [Point; 4]) -> Image {
     let Some(inverse) = before.try_inverse() else {
         return Image::Degenerate;
     };
-    let (volume, determinant) = (
-        before.determinant(),
-        after.determinant() / before.determinant(),
-    );
+    let (volume, determinant) = (before.determinant(), after.determinant() / before.determinant());
     if determinant < 0.0 {
         return Image::Inverted;
     }
@@ -203,10 +179,7 @@ mod tests {
     use proptest::prelude::*;
 
     fn moved(mesh: &Mesh, f: impl Fn(&Point) -> Point) -> Mesh {
-        Mesh {
-            points: mesh.points.iter().map(f).collect(),
-            cells: mesh.cells.clone(),
-        }
+        Mesh { points: mesh.points.iter().map(f).collect(), cells: mesh.cells.clone() }
     }
 
     #[test]
@@ -215,8 +188,7 @@ mod tests {
         let found = distortion(&tets, &moved(&tets, |p| Point::new(8.0 * p.x, p.y, p.z))).unwrap();
         assert!((found.angle - 66.0 / 12.0).abs() < 1e-12 && (found.size - 1.0).abs() < 1e-12);
         let quads = quad_box([1, 1, 1]);
-        let found =
-            distortion(&quads, &moved(&quads, |p| Point::new(2.0 * p.x, p.y, p.z))).unwrap();
+        let found = distortion(&quads, &moved(&quads, |p| Point::new(2.0 * p.x, p.y, p.z))).unwrap();
         // Four faces become 2 by 1 with half of the area ratio 6/10 more, two stay.
         assert!((found.angle - (4.0 * 1.25 + 2.0) / 6.0).abs() < 1e-12);
         let size = |d: f64| (d + 1.0 / d) / 2.0;
@@ -227,10 +199,7 @@ mod tests {
     fn degenerate_and_inverted_simplices_are_left_out() {
         let tets = tet_box([2, 2, 2]);
         let mirrored = moved(&tets, |p| Point::new(-p.x, p.y, p.z));
-        assert_eq!(
-            distortion(&tets, &mirrored).unwrap_err().kind,
-            ErrorKind::Mesh
-        );
+        assert_eq!(distortion(&tets, &mirrored).unwrap_err().kind, ErrorKind::Mesh);
         let mut pushed = tets.clone();
         pushed.points[13].x = 3.5;
         let found = distortion(&tets, &pushed).unwrap();

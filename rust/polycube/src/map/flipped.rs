@@ -6,16 +6,8 @@ use crate::mesh::{Cells, Face, Mesh, Point};
 use nalgebra::Vector3;
 
 /// For each corner of a hexahedron its three neighbours, right-handed in a good one.
-const CORNERS: [[usize; 3]; 8] = [
-    [1, 3, 4],
-    [2, 0, 5],
-    [3, 1, 6],
-    [0, 2, 7],
-    [7, 5, 0],
-    [4, 6, 1],
-    [5, 7, 2],
-    [6, 4, 3],
-];
+const CORNERS: [[usize; 3]; 8] =
+    [[1, 3, 4], [2, 0, 5], [3, 1, 6], [0, 2, 7], [7, 5, 0], [4, 6, 1], [5, 7, 2], [6, 4, 3]];
 
 /// The elements turned over or flat, ascending.
 #[derive(Clone, Debug, Default, PartialEq, Eq, serde::Serialize)]
@@ -50,18 +42,12 @@ impl Flipped {
 /// range, a point that is not finite, or a face of three cells.
 pub fn flipped(mesh: &Mesh, labels: &[i8]) -> Result<Flipped> {
     check_mesh(mesh)?;
-    let faces = if labels.is_empty() {
-        Vec::new()
-    } else {
-        mesh.cells.boundary()?
-    };
+    let faces = if labels.is_empty() { Vec::new() } else { mesh.cells.boundary()? };
     check_labels(labels, faces.len())?;
     let at = |v: u32| mesh.points[v as usize];
     let turned = |i: &u32| face_flipped(&faces[*i as usize], labels[*i as usize], at);
     Ok(Flipped {
-        cells: (0..mesh.cells.len() as u32)
-            .filter(|&i| cell_flipped(mesh, i as usize))
-            .collect(),
+        cells: (0..mesh.cells.len() as u32).filter(|&i| cell_flipped(mesh, i as usize)).collect(),
         faces: (0..faces.len() as u32).filter(turned).collect(),
     })
 }
@@ -73,11 +59,9 @@ fn check_labels(labels: &[i8], faces: usize) -> Result<()> {
     }
     match labels.iter().position(|l| !(-1..=5).contains(l)) {
         None => Ok(()),
-        Some(i) => Err(
-            Error::new(ErrorKind::Option, format!("{} is no label", labels[i]))
-                .at(Place::Face(i as u32))
-                .remedy("labels are 0 to 5, or -1 for none"),
-        ),
+        Some(i) => Err(Error::new(ErrorKind::Option, format!("{} is no label", labels[i]))
+            .at(Place::Face(i as u32))
+            .remedy("labels are 0 to 5, or -1 for none")),
     }
 }
 
@@ -90,8 +74,7 @@ fn cell_flipped(mesh: &Mesh, i: usize) -> bool {
         Cells::Triangles(_) | Cells::Quads(_) => false,
         Cells::Tetrahedra(c) => determinant(c[i][0], [c[i][1], c[i][2], c[i][3]]) <= 0.0,
         Cells::Hexahedra(c) => {
-            let corner =
-                |(k, ends): (usize, &[usize; 3])| determinant(c[i][k], ends.map(|e| c[i][e]));
+            let corner = |(k, ends): (usize, &[usize; 3])| determinant(c[i][k], ends.map(|e| c[i][e]));
             CORNERS.iter().enumerate().map(corner).any(|d| d <= 0.0)
         }
     }
@@ -105,11 +88,7 @@ fn face_flipped(face: &Face, label: i8, at: impl Fn(u32) -> Point) -> bool {
     outward[label as usize / 2] = if label % 2 == 0 { 1.0 } else { -1.0 };
     let v = face.vertices();
     let corner = |i: usize| {
-        let (here, next, last) = (
-            at(v[i]),
-            at(v[(i + 1) % v.len()]),
-            at(v[(i + v.len() - 1) % v.len()]),
-        );
+        let (here, next, last) = (at(v[i]), at(v[(i + 1) % v.len()]), at(v[(i + v.len() - 1) % v.len()]));
         (next - here).cross(&(last - here)).dot(&outward)
     };
     // All corners of a triangle have one normal.
@@ -124,12 +103,7 @@ mod tests {
 
     #[test]
     fn a_good_box_has_none() {
-        for mesh in [
-            tri_box([2, 2, 2]),
-            quad_box([2, 2, 2]),
-            tet_box([2, 2, 2]),
-            hex_box([2, 2, 2]),
-        ] {
+        for mesh in [tri_box([2, 2, 2]), quad_box([2, 2, 2]), tet_box([2, 2, 2]), hex_box([2, 2, 2])] {
             assert!(flipped(&mesh, &labels(&mesh)).unwrap().is_empty());
             assert!(flipped(&mesh, &[]).unwrap().is_empty());
         }
@@ -146,12 +120,7 @@ mod tests {
 
     #[test]
     fn a_vertex_pushed_over_its_neighbour_flips_faces() {
-        for mut mesh in [
-            tri_box([3, 2, 2]),
-            quad_box([3, 2, 2]),
-            hex_box([3, 2, 2]),
-            tet_box([3, 2, 2]),
-        ] {
+        for mut mesh in [tri_box([3, 2, 2]), quad_box([3, 2, 2]), hex_box([3, 2, 2]), tet_box([3, 2, 2])] {
             let labels = labels(&mesh);
             // Vertex (1, 1, 0) in the facet −Z beyond (2, 1, 0).
             mesh.points[5].x = 2.5;
@@ -179,14 +148,8 @@ mod tests {
     #[test]
     fn labels_are_checked() {
         let mesh = quad_box([1, 1, 1]);
-        assert_eq!(
-            flipped(&mesh, &[0; 5]).unwrap_err().kind,
-            ErrorKind::Mismatch
-        );
+        assert_eq!(flipped(&mesh, &[0; 5]).unwrap_err().kind, ErrorKind::Mismatch);
         let error = flipped(&mesh, &[0, 1, 6, 0, 0, 0]).unwrap_err();
-        assert_eq!(
-            (error.kind, error.place),
-            (ErrorKind::Option, Some(Place::Face(2)))
-        );
+        assert_eq!((error.kind, error.place), (ErrorKind::Option, Some(Place::Face(2))));
     }
 }

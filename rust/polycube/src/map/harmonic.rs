@@ -39,10 +39,7 @@ fn extend<const N: usize>(
     context: &Context,
 ) -> Result<()> {
     let unknown = |v: usize| !known[v][axes[0]] && !weights.range(v).is_empty();
-    let unknowns: Vec<u32> = (0..weights.len())
-        .filter(|&v| unknown(v))
-        .map(|v| v as u32)
-        .collect();
+    let unknowns: Vec<u32> = (0..weights.len()).filter(|&v| unknown(v)).map(|v| v as u32).collect();
     let mut index = vec![KNOWN; weights.len()];
     for (i, &v) in unknowns.iter().enumerate() {
         index[v as usize] = i as u32;
@@ -103,13 +100,7 @@ fn anchored(weights: &Rows, unknowns: &[u32], index: &[u32], axis: usize) -> Res
 }
 
 /// Marks the unknowns connected to unknown `first`; tells whether a known neighbour was met.
-fn spread(
-    weights: &Rows,
-    first: usize,
-    unknowns: &[u32],
-    index: &[u32],
-    seen: &mut [bool],
-) -> bool {
+fn spread(weights: &Rows, first: usize, unknowns: &[u32], index: &[u32], seen: &mut [bool]) -> bool {
     let mut met = false;
     let mut stack = vec![first];
     seen[first] = true;
@@ -131,7 +122,5 @@ fn adrift(v: u32, axis: usize) -> Error {
     let message = format!("no vertex of its component has a prescribed {name} coordinate");
     Error::new(ErrorKind::Polycube, message)
         .at(Place::Vertex(v))
-        .remedy(format!(
-            "every closed component needs at least one facet across the {name} axis"
-        ))
+        .remedy(format!("every closed component needs at least one facet across the {name} axis"))
 }

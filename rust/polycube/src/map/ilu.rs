@@ -29,11 +29,7 @@ impl Ilu {
     /// Factorises `a`, whose rows hold a positive diagonal entry. Time: entries × entries per row.
     pub(super) fn new(a: &Rows, context: &Context) -> Result<Self> {
         let diagonal = (0..a.len()).map(|i| diagonal(a, i)).collect();
-        let mut ilu = Self {
-            rows: a.clone(),
-            diagonal,
-            inverse: Vec::with_capacity(a.len()),
-        };
+        let mut ilu = Self { rows: a.clone(), diagonal, inverse: Vec::with_capacity(a.len()) };
         let mut place = vec![usize::MAX; a.len()];
         for i in 0..a.len() {
             if i % CHUNK == 0 {

@@ -26,11 +26,7 @@ const ITERATIONS: usize = 2000;
 ///
 /// # Errors
 /// [`ErrorKind::Internal`] if the residual stays above 1e-6; [`ErrorKind::Cancelled`].
-pub(super) fn solve<const N: usize>(
-    a: &Rows,
-    b: &[Values<N>],
-    context: &Context,
-) -> Result<Vec<Values<N>>> {
+pub(super) fn solve<const N: usize>(a: &Rows, b: &[Values<N>], context: &Context) -> Result<Vec<Values<N>>> {
     let ilu = Ilu::new(a, context)?;
     let size = norms(b);
     let mut x = vec![[0.0; N]; b.len()];
@@ -111,10 +107,7 @@ impl<'a, const N: usize> Run<'a, N> {
         context.tick(self.progress())?;
         self.ilu.apply(&self.residual, &mut self.smooth);
         self.a.multiply(&self.smooth, &mut self.second);
-        let omega = self.ratio(
-            &dots(&self.second, &self.residual),
-            &dots(&self.second, &self.second),
-        );
+        let omega = self.ratio(&dots(&self.second, &self.residual), &dots(&self.second, &self.second));
         add(x, &omega, &self.smooth);
         add(&mut self.residual, &omega.map(|o| -o), &self.second);
         self.turn(&alpha, &omega);
@@ -125,12 +118,7 @@ impl<'a, const N: usize> Run<'a, N> {
     fn turn(&mut self, alpha: &Values<N>, omega: &Values<N>) {
         let rho = dots(&self.shadow, &self.residual);
         let (back, along) = (self.ratio(&rho, &self.rho), self.ratio(alpha, omega));
-        for ((p, r), v) in self
-            .direction
-            .iter_mut()
-            .zip(&self.residual)
-            .zip(&self.image)
-        {
+        for ((p, r), v) in self.direction.iter_mut().zip(&self.residual).zip(&self.image) {
             for k in 0..N {
                 p[k] = r[k] + back[k] * along[k] * (p[k] - omega[k] * v[k]);
             }
@@ -147,11 +135,7 @@ impl<'a, const N: usize> Run<'a, N> {
     fn ratio(&self, a: &Values<N>, b: &Values<N>) -> Values<N> {
         std::array::from_fn(|k| {
             let ratio = a[k] / b[k];
-            if self.open[k] && ratio.is_finite() {
-                ratio
-            } else {
-                0.0
-            }
+            if self.open[k] && ratio.is_finite() { ratio } else { 0.0 }
         })
     }
 
@@ -199,9 +183,7 @@ fn add<const N: usize>(y: &mut [Values<N>], f: &Values<N>, x: &[Values<N>]) {
 fn worst<const N: usize>(found: &Values<N>, size: &Values<N>) -> f64 {
     let columns = found.iter().zip(size).filter(|(_, s)| **s > 0.0);
     // Not `max`, which would overlook a NaN.
-    columns
-        .map(|(f, s)| f / s)
-        .fold(0.0, |m, q| if q <= m { m } else { q })
+    columns.map(|(f, s)| f / s).fold(0.0, |m, q| if q <= m { m } else { q })
 }
 
 #[cfg(test)]
@@ -215,16 +197,8 @@ mod tests {
     fn matrix(n: u32, random: &mut Random) -> Rows {
         let mut a = Rows::new();
         for i in 0..n {
-            let ends = [
-                (i + 1) % n,
-                (i + n - 1) % n,
-                (random.unit() * f64::from(n)) as u32,
-            ];
-            let mut row: Vec<_> = ends
-                .iter()
-                .filter(|&&j| j != i)
-                .map(|&j| (j, -random.unit()))
-                .collect();
+            let ends = [(i + 1) % n, (i + n - 1) % n, (random.unit() * f64::from(n)) as u32];
+            let mut row: Vec<_> = ends.iter().filter(|&&j| j != i).map(|&j| (j, -random.unit())).collect();
             let sum: f64 = row.iter().map(|e| -e.1).sum();
             row.push((i, sum + if i % 7 == 0 { 0.5 } else { 0.0 }));
             a.push(&mut row);

@@ -43,13 +43,7 @@ pub(super) fn mean_value_weights(
 }
 
 /// Fills `row` with the mean value weights of `v`; false if its star does not allow them.
-fn mean_values(
-    v: usize,
-    points: &[Point],
-    tetrahedra: &[[u32; 4]],
-    star: &[u32],
-    row: &mut Vec<(u32, f64)>,
-) -> bool {
+fn mean_values(v: usize, points: &[Point], tetrahedra: &[[u32; 4]], star: &[u32], row: &mut Vec<(u32, f64)>) -> bool {
     for &t in star {
         let corners = opposite(v as u32, &tetrahedra[t as usize]);
         let ends = corners.map(|u| points[u as usize]);
@@ -68,8 +62,7 @@ fn corner_weights(centre: &Point, ends: [Point; 3]) -> Option<[f64; 3]> {
     let lengths = rays.map(|r| r.norm());
     let unit = [0, 1, 2].map(|i| rays[i] / lengths[i]);
     // Normal of the plane through the centre and the edge opposite to corner i, angle seen there.
-    let across =
-        [(1, 2), (2, 0), (0, 1)].map(|(j, k)| (unit[j].cross(&unit[k]), unit[j].dot(&unit[k])));
+    let across = [(1, 2), (2, 0), (0, 1)].map(|(j, k)| (unit[j].cross(&unit[k]), unit[j].dot(&unit[k])));
     let sines = across.map(|(normal, _)| normal.norm());
     let determinant = unit[0].dot(&across[0].0);
     // A NaN, from a zero length, is not trusted either.
@@ -82,21 +75,13 @@ fn corner_weights(centre: &Point, ends: [Point; 3]) -> Option<[f64; 3]> {
     let half = [0, 1, 2].map(|i| normals[i] * (0.5 * libm::atan2(sines[i], across[i].1)));
     let mean = half[0] + half[1] + half[2];
     let weights = [0, 1, 2].map(|i| mean.dot(&normals[i]) * sines[i] / (determinant * lengths[i]));
-    weights
-        .iter()
-        .all(|&w| w > 0.0 && w.is_finite())
-        .then_some(weights)
+    weights.iter().all(|&w| w > 0.0 && w.is_finite()).then_some(weights)
 }
 
 /// The same weight for every neighbour, in place of what `row` holds.
 fn uniform(v: usize, tetrahedra: &[[u32; 4]], star: &[u32], row: &mut Vec<(u32, f64)>) {
     row.clear();
-    row.extend(
-        star.iter()
-            .flat_map(|&t| tetrahedra[t as usize])
-            .filter(|&u| u as usize != v)
-            .map(|u| (u, 1.0)),
-    );
+    row.extend(star.iter().flat_map(|&t| tetrahedra[t as usize]).filter(|&u| u as usize != v).map(|u| (u, 1.0)));
     row.sort_by_key(|entry| entry.0);
     row.dedup();
 }
@@ -123,9 +108,7 @@ mod tests {
     use proptest::prelude::*;
 
     fn rows(mesh: &Mesh, inner: &[bool]) -> Rows {
-        let Cells::Tetrahedra(t) = &mesh.cells else {
-            panic!("not tetrahedra")
-        };
+        let Cells::Tetrahedra(t) = &mesh.cells else { panic!("not tetrahedra") };
         mean_value_weights(&mesh.points, t, inner, &Context::default()).unwrap()
     }
 

@@ -42,9 +42,7 @@ use crate::mesh::{Face, Mesh, Point, Simplices, split_quad};
 pub fn morph(mesh: &Mesh, fixed: &[[Option<f64>; 3]], context: &Context) -> Result<Vec<Point>> {
     check(mesh, fixed)?;
     let mut known: Vec<[bool; 3]> = fixed.iter().map(|f| f.map(|c| c.is_some())).collect();
-    let mut moves: Vec<[f64; 3]> = (0..fixed.len())
-        .map(|v| prescribed(mesh, fixed, v))
-        .collect();
+    let mut moves: Vec<[f64; 3]> = (0..fixed.len()).map(|v| prescribed(mesh, fixed, v)).collect();
     let surface = surface(mesh)?;
     let solid = match mesh.cells.simplices() {
         Simplices::Tetrahedra(t) => Some(t),
@@ -54,9 +52,7 @@ pub fn morph(mesh: &Mesh, fixed: &[[Option<f64>; 3]], context: &Context) -> Resu
     let part = |from, to| context.stage("morph", from, to);
     let weights = cotangent_weights(&mesh.points, &surface, &part(0.0, end / 4.0))?;
     extend_harmonic(&weights, &known, &mut moves, &part(end / 4.0, end))?;
-    let mut used: Vec<bool> = (0..weights.len())
-        .map(|v| !weights.range(v).is_empty())
-        .collect();
+    let mut used: Vec<bool> = (0..weights.len()).map(|v| !weights.range(v).is_empty()).collect();
     if let Some(tetrahedra) = solid {
         drop(weights);
         let inner: Vec<bool> = used.iter().map(|&outer| !outer).collect();
@@ -68,11 +64,7 @@ pub fn morph(mesh: &Mesh, fixed: &[[Option<f64>; 3]], context: &Context) -> Resu
         }
     }
     let place = |v: usize| {
-        if used[v] {
-            placed(mesh, fixed, &moves, v)
-        } else {
-            mesh.points[v]
-        }
+        if used[v] { placed(mesh, fixed, &moves, v) } else { mesh.points[v] }
     };
     let points = (0..used.len()).map(place).collect();
     context.tick(1.0)?;
@@ -112,18 +104,13 @@ fn surface(mesh: &Mesh) -> Result<Vec<[u32; 3]>> {
 /// Whether the arguments can be used at all.
 fn check(mesh: &Mesh, fixed: &[[Option<f64>; 3]]) -> Result<()> {
     if fixed.len() != mesh.points.len() {
-        let message = format!(
-            "{} prescriptions for {} vertices",
-            fixed.len(),
-            mesh.points.len()
-        );
+        let message = format!("{} prescriptions for {} vertices", fixed.len(), mesh.points.len());
         return Err(Error::new(ErrorKind::Mismatch, message).remedy("give one for each vertex"));
     }
     let finite = |c: &Option<f64>| c.is_none_or(f64::is_finite);
     if let Some(v) = fixed.iter().position(|f| !f.iter().all(finite)) {
         return Err(
-            Error::new(ErrorKind::Option, "its prescribed coordinate is not finite")
-                .at(Place::Vertex(v as u32)),
+            Error::new(ErrorKind::Option, "its prescribed coordinate is not finite").at(Place::Vertex(v as u32))
         );
     }
     check_mesh(mesh)
@@ -143,9 +130,7 @@ mod tests {
     }
 
     fn farthest(a: &[Point], b: impl IntoIterator<Item = Point>) -> f64 {
-        a.iter()
-            .zip(b)
-            .fold(0.0, |m: f64, (a, b)| m.max((a - b).amax()))
+        a.iter().zip(b).fold(0.0, |m: f64, (a, b)| m.max((a - b).amax()))
     }
 
     fn run(mesh: &Mesh, fixed: &[[Option<f64>; 3]]) -> Vec<Point> {
@@ -172,11 +157,7 @@ mod tests {
             let surface = !mesh.cells.is_volume();
             let image = |(p, f): (&Point, &[Option<f64>; 3])| {
                 let stays = surface && f.iter().all(Option::is_none);
-                if stays {
-                    *p
-                } else {
-                    Point::new(line(0, p.x), line(1, p.y), line(2, p.z))
-                }
+                if stays { *p } else { Point::new(line(0, p.x), line(1, p.y), line(2, p.z)) }
             };
             assert!(farthest(&used, mesh.points.iter().zip(&fixed).map(image)) < 1e-8);
         }
@@ -209,22 +190,16 @@ mod tests {
         let moved = run(&mesh, &fixed);
         let n = mesh.points.len();
         let mut stiffness = DMatrix::identity(n, n);
-        let mut side =
-            DVector::from_fn(n, |v, _| fixed[v][2].map_or(0.0, |z| z - mesh.points[v].z));
+        let mut side = DVector::from_fn(n, |v, _| fixed[v][2].map_or(0.0, |z| z - mesh.points[v].z));
         for v in (0..n).filter(|&v| fixed[v][2].is_none() && fixed[v].iter().any(Option::is_some)) {
             stiffness[(v, v)] = 0.0;
             side[v] = 0.0;
         }
-        let crate::mesh::Cells::Triangles(triangles) = &mesh.cells else {
-            panic!()
-        };
+        let crate::mesh::Cells::Triangles(triangles) = &mesh.cells else { panic!() };
         for t in triangles {
             for k in 0..3 {
                 let [i, j, o] = [t[k], t[(k + 1) % 3], t[(k + 2) % 3]].map(|v| v as usize);
-                let (a, b) = (
-                    mesh.points[i] - mesh.points[o],
-                    mesh.points[j] - mesh.points[o],
-                );
+                let (a, b) = (mesh.points[i] - mesh.points[o], mesh.points[j] - mesh.points[o]);
                 let w = 1.0 / a.angle(&b).tan();
                 for (i, j) in [(i, j), (j, i)] {
                     if fixed[i][2].is_none() {
@@ -254,11 +229,7 @@ mod tests {
             }
             let moved = run(&mesh, &fixed);
             for ((p, q), f) in mesh.points.iter().zip(moved).zip(&fixed) {
-                let image = if f.iter().any(Option::is_some) {
-                    p * 2.0 + Point::new(1.0, 1.0, 1.0).coords
-                } else {
-                    *p
-                };
+                let image = if f.iter().any(Option::is_some) { p * 2.0 + Point::new(1.0, 1.0, 1.0).coords } else { *p };
                 assert!((q - image).amax() < 1e-7 * squeeze.max(1.0));
             }
         }
@@ -287,11 +258,7 @@ mod tests {
             mesh.points[at(1, 1, 0)] = mesh.points[at(2, 1, 0)];
             mesh.points[at(2, 2, 2)].x = 9.0;
             let moved = run(&mesh, &fixed);
-            assert!(
-                moved
-                    .iter()
-                    .all(|p| p.coords.iter().all(|c| c.is_finite() && c.abs() < 10.0))
-            );
+            assert!(moved.iter().all(|p| p.coords.iter().all(|c| c.is_finite() && c.abs() < 10.0)));
         }
     }
 
@@ -303,10 +270,7 @@ mod tests {
                 f[2] = None;
             }
             let error = morph(&mesh, &fixed, &Context::default()).unwrap_err();
-            assert_eq!(
-                (error.kind, error.place),
-                (ErrorKind::Polycube, Some(Place::Vertex(0)))
-            );
+            assert_eq!((error.kind, error.place), (ErrorKind::Polycube, Some(Place::Vertex(0))));
             assert!(error.message.contains('z'));
         }
     }
@@ -314,9 +278,7 @@ mod tests {
     #[test]
     fn bad_arguments_are_refused() {
         let mesh = tet_box([1, 1, 1]);
-        let kind = |mesh: &Mesh, fixed: &[[Option<f64>; 3]]| {
-            morph(mesh, fixed, &Context::default()).unwrap_err().kind
-        };
+        let kind = |mesh: &Mesh, fixed: &[[Option<f64>; 3]]| morph(mesh, fixed, &Context::default()).unwrap_err().kind;
         let mut fixed = levels(&mesh);
         assert_eq!(kind(&mesh, &fixed[1..]), ErrorKind::Mismatch);
         let mut short = mesh.clone();
@@ -344,10 +306,7 @@ mod tests {
             assert!(seen.is_sorted() && seen.len() > 5);
             assert_eq!(seen.last(), Some(&1.0));
             context.cancel();
-            assert_eq!(
-                morph(&mesh, &fixed, &context).unwrap_err().kind,
-                ErrorKind::Cancelled
-            );
+            assert_eq!(morph(&mesh, &fixed, &context).unwrap_err().kind, ErrorKind::Cancelled);
         }
     }
 }

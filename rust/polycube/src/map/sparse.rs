@@ -14,10 +14,7 @@ pub(super) struct Rows {
 impl Rows {
     /// A matrix without rows.
     pub(super) fn new() -> Self {
-        Self {
-            start: vec![0],
-            ..Self::default()
-        }
+        Self { start: vec![0], ..Self::default() }
     }
 
     /// Adds the next row: sorts `entries` by column, sums those of one column in the order given,
@@ -67,9 +64,7 @@ impl Rows {
     pub(super) fn row(&self, i: usize) -> impl Iterator<Item = (usize, f64)> + '_ {
         let range = self.range(i);
         let columns = self.columns[range.clone()].iter();
-        columns
-            .map(|&c| c as usize)
-            .zip(self.values[range].iter().copied())
+        columns.map(|&c| c as usize).zip(self.values[range].iter().copied())
     }
 
     /// `y = A x`.
@@ -116,10 +111,7 @@ impl Stars {
                 next[v as usize] += 1;
             }
         }
-        Self {
-            start,
-            simplices: items,
-        }
+        Self { start, simplices: items }
     }
 
     /// The simplices around `v`.

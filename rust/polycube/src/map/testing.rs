@@ -26,36 +26,21 @@ pub(crate) fn hex_box(n: [u32; 3]) -> Mesh {
             for x in 0..=n[0] {
                 points.push(Point::new(f64::from(x), f64::from(y), f64::from(z)));
                 if x < n[0] && y < n[1] && z < n[2] {
-                    let ring = |z| {
-                        [
-                            id(x, y, z),
-                            id(x + 1, y, z),
-                            id(x + 1, y + 1, z),
-                            id(x, y + 1, z),
-                        ]
-                    };
+                    let ring = |z| [id(x, y, z), id(x + 1, y, z), id(x + 1, y + 1, z), id(x, y + 1, z)];
                     let ([a, b, c, d], [e, f, g, h]) = (ring(z), ring(z + 1));
                     hexes.push([a, b, c, d, e, f, g, h]);
                 }
             }
         }
     }
-    Mesh {
-        points,
-        cells: Cells::Hexahedra(hexes),
-    }
+    Mesh { points, cells: Cells::Hexahedra(hexes) }
 }
 
 /// The same box of tetrahedra.
 pub(crate) fn tet_box(n: [u32; 3]) -> Mesh {
     let mesh = hex_box(n);
-    let Simplices::Tetrahedra(t) = mesh.cells.simplices() else {
-        panic!("not a volume")
-    };
-    Mesh {
-        cells: Cells::Tetrahedra(t.into_owned()),
-        points: mesh.points,
-    }
+    let Simplices::Tetrahedra(t) = mesh.cells.simplices() else { panic!("not a volume") };
+    Mesh { cells: Cells::Tetrahedra(t.into_owned()), points: mesh.points }
 }
 
 /// Its surface of quadrilaterals; the inner vertices stay, used by no cell.
@@ -65,29 +50,15 @@ pub(crate) fn quad_box(n: [u32; 3]) -> Mesh {
         Face::Quad(q) => q,
         Face::Triangle(_) => panic!("not a quadrilateral"),
     };
-    let cells = mesh
-        .cells
-        .boundary()
-        .unwrap()
-        .into_iter()
-        .map(quad)
-        .collect();
-    Mesh {
-        cells: Cells::Quads(cells),
-        points: mesh.points,
-    }
+    let cells = mesh.cells.boundary().unwrap().into_iter().map(quad).collect();
+    Mesh { cells: Cells::Quads(cells), points: mesh.points }
 }
 
 /// The same of triangles.
 pub(crate) fn tri_box(n: [u32; 3]) -> Mesh {
     let mesh = quad_box(n);
-    let Simplices::Triangles(t) = mesh.cells.simplices() else {
-        panic!("not a surface")
-    };
-    Mesh {
-        cells: Cells::Triangles(t.into_owned()),
-        points: mesh.points,
-    }
+    let Simplices::Triangles(t) = mesh.cells.simplices() else { panic!("not a surface") };
+    Mesh { cells: Cells::Triangles(t.into_owned()), points: mesh.points }
 }
 
 /// The mesh with its vertices numbered at random.
@@ -99,9 +70,7 @@ pub(crate) fn shuffled(mesh: &Mesh, seed: u64) -> Mesh {
     for (new, &(_, old)) in order.iter().enumerate() {
         rank[old] = new as u32;
     }
-    let Cells::Hexahedra(cells) = &mesh.cells else {
-        panic!("not hexahedra")
-    };
+    let Cells::Hexahedra(cells) = &mesh.cells else { panic!("not hexahedra") };
     Mesh {
         points: order.iter().map(|&(_, old)| mesh.points[old]).collect(),
         cells: Cells::Hexahedra(cells.iter().map(|c| c.map(|v| rank[v as usize])).collect()),
@@ -124,31 +93,18 @@ pub(crate) fn jittered(mesh: &Mesh, amount: f64, seed: u64) -> Mesh {
 
 /// The coordinates of a box's vertices on its sides.
 pub(crate) fn levels(mesh: &Mesh) -> Vec<[Option<f64>; 3]> {
-    let far = mesh.points.iter().fold([0.0_f64; 3], |m, p| {
-        [m[0].max(p.x), m[1].max(p.y), m[2].max(p.z)]
-    });
+    let far = mesh.points.iter().fold([0.0_f64; 3], |m, p| [m[0].max(p.x), m[1].max(p.y), m[2].max(p.z)]);
     let side = |p: &Point, k: usize| (p[k] == 0.0 || p[k] == far[k]).then_some(p[k]);
-    mesh.points
-        .iter()
-        .map(|p| [side(p, 0), side(p, 1), side(p, 2)])
-        .collect()
+    mesh.points.iter().map(|p| [side(p, 0), side(p, 1), side(p, 2)]).collect()
 }
 
 /// The label of every boundary face, by its normal; −1 for a flat one.
 pub(crate) fn labels(mesh: &Mesh) -> Vec<i8> {
     let label = |f: &Face| {
-        let p: Vec<_> = f
-            .vertices()
-            .iter()
-            .map(|&v| mesh.points[v as usize])
-            .collect();
+        let p: Vec<_> = f.vertices().iter().map(|&v| mesh.points[v as usize]).collect();
         let normal = (p[1] - p[0]).cross(&(p[2] - p[0]));
         let axis = normal.iamax() as i8;
-        if normal == nalgebra::Vector3::zeros() {
-            -1
-        } else {
-            2 * axis + i8::from(normal[axis as usize] < 0.0)
-        }
+        if normal == nalgebra::Vector3::zeros() { -1 } else { 2 * axis + i8::from(normal[axis as usize] < 0.0) }
     };
     mesh.cells.boundary().unwrap().iter().map(label).collect()
 }
@@ -168,10 +124,7 @@ pub(crate) fn real_polycubes() -> Vec<(String, Mesh)> {
     paths.retain(|p| p.to_string_lossy().ends_with(".polycube.mesh"));
     paths.sort();
     let name = |p: &PathBuf| p.file_name().unwrap().to_string_lossy().into_owned();
-    paths
-        .iter()
-        .map(|p| (name(p), read_medit(&std::fs::read_to_string(p).unwrap())))
-        .collect()
+    paths.iter().map(|p| (name(p), read_medit(&std::fs::read_to_string(p).unwrap()))).collect()
 }
 
 /// Reads the vertices and tetrahedra of a MEDIT text.
@@ -198,8 +151,5 @@ fn read_medit(text: &str) -> Mesh {
             _ => {}
         }
     }
-    Mesh {
-        points,
-        cells: Cells::Tetrahedra(tetrahedra),
-    }
+    Mesh { points, cells: Cells::Tetrahedra(tetrahedra) }
 }

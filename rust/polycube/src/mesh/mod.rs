@@ -1,14 +1,49 @@
 //! Meshes of triangles, quadrilaterals, tetrahedra or hexahedra, and their boundary.
 
+pub mod io;
 mod simplices;
 
+pub use io::{
+    CellField, FieldValues, Format, parse_labels, read, read_bytes, read_labels, read_pair, write, write_atomically,
+    write_bytes, write_labels,
+};
 pub(crate) use simplices::split_quad;
 pub use simplices::{Face, Simplices};
 
 use nalgebra::Point3;
+use std::fmt;
 
 /// A point in space.
 pub type Point = Point3<f64>;
+
+/// The kinds of cells there are.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
+pub enum CellKind {
+    /// Surface of triangles.
+    Triangles,
+    /// Surface of quadrilaterals.
+    Quads,
+    /// Volume of tetrahedra.
+    Tetrahedra,
+    /// Volume of hexahedra.
+    Hexahedra,
+}
+
+impl CellKind {
+    /// Every kind.
+    pub const ALL: [Self; 4] = [Self::Triangles, Self::Quads, Self::Tetrahedra, Self::Hexahedra];
+}
+
+impl fmt::Display for CellKind {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(match self {
+            Self::Triangles => "triangles",
+            Self::Quads => "quadrilaterals",
+            Self::Tetrahedra => "tetrahedra",
+            Self::Hexahedra => "hexahedra",
+        })
+    }
+}
 
 /// The cells of a mesh, all of one kind. Indices count from 0.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -41,6 +76,16 @@ impl Cells {
             Self::Quads(c) => c.len(),
             Self::Tetrahedra(c) => c.len(),
             Self::Hexahedra(c) => c.len(),
+        }
+    }
+
+    /// The kind of the cells.
+    pub fn kind(&self) -> CellKind {
+        match self {
+            Self::Triangles(_) => CellKind::Triangles,
+            Self::Quads(_) => CellKind::Quads,
+            Self::Tetrahedra(_) => CellKind::Tetrahedra,
+            Self::Hexahedra(_) => CellKind::Hexahedra,
         }
     }
 

@@ -12,14 +12,8 @@ use std::borrow::Cow;
 const TETRAHEDRON_FACES: [[usize; 3]; 4] = [[0, 1, 3], [1, 2, 3], [2, 0, 3], [0, 2, 1]];
 
 /// Local faces of a hexahedron in VTK's order, counter-clockwise seen from outside.
-const HEXAHEDRON_FACES: [[usize; 4]; 6] = [
-    [0, 4, 7, 3],
-    [1, 2, 6, 5],
-    [0, 1, 5, 4],
-    [3, 7, 6, 2],
-    [0, 3, 2, 1],
-    [4, 5, 6, 7],
-];
+const HEXAHEDRON_FACES: [[usize; 4]; 6] =
+    [[0, 4, 7, 3], [1, 2, 6, 5], [0, 1, 5, 4], [3, 7, 6, 2], [0, 3, 2, 1], [4, 5, 6, 7]];
 
 /// The simplices of a mesh: borrowed where its cells are simplices already, made where they are not.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -58,9 +52,7 @@ impl Cells {
     pub fn simplices(&self) -> Simplices<'_> {
         match self {
             Self::Triangles(c) => Simplices::Triangles(Cow::Borrowed(c)),
-            Self::Quads(c) => {
-                Simplices::Triangles(c.iter().copied().flat_map(split_quad).collect())
-            }
+            Self::Quads(c) => Simplices::Triangles(c.iter().copied().flat_map(split_quad).collect()),
             Self::Tetrahedra(c) => Simplices::Tetrahedra(Cow::Borrowed(c)),
             Self::Hexahedra(c) => Simplices::Tetrahedra(c.iter().flat_map(split_hex).collect()),
         }
@@ -117,9 +109,7 @@ fn outer<const C: usize, const K: usize, const F: usize>(
         return Err(Error::new(ErrorKind::Mesh, "the mesh has too many cells"));
     }
     let face = |i: u32| table[i as usize % F].map(|k| cells[i as usize / F][k]);
-    let mut keys: Vec<([u32; K], u32)> = (0..(cells.len() * F) as u32)
-        .map(|i| (sorted(face(i)), i))
-        .collect();
+    let mut keys: Vec<([u32; K], u32)> = (0..(cells.len() * F) as u32).map(|i| (sorted(face(i)), i)).collect();
     keys.sort_unstable();
     let mut single = Vec::new();
     for group in keys.chunk_by(|a, b| a.0 == b.0) {
@@ -162,21 +152,14 @@ mod tests {
     }
 
     fn area_vector(mesh: &Mesh, face: &Face) -> Vector3<f64> {
-        let p: Vec<_> = face
-            .vertices()
-            .iter()
-            .map(|&v| mesh.points[v as usize].coords)
-            .collect();
+        let p: Vec<_> = face.vertices().iter().map(|&v| mesh.points[v as usize].coords).collect();
         let next = |i: usize| p[(i + 1) % p.len()];
         (0..p.len()).map(|i| p[i].cross(&next(i)) / 2.0).sum()
     }
 
     /// Six times the volume of a closed surface through the divergence theorem, about the origin.
     fn enclosed(mesh: &Mesh, boundary: &[Face]) -> f64 {
-        boundary
-            .iter()
-            .map(|f| area_vector(mesh, f).dot(&mesh.points[f.vertices()[0] as usize].coords) / 3.0)
-            .sum()
+        boundary.iter().map(|f| area_vector(mesh, f).dot(&mesh.points[f.vertices()[0] as usize].coords) / 3.0).sum()
     }
 
     #[test]
@@ -194,14 +177,7 @@ mod tests {
     #[test]
     fn boundary_follows_the_cells() {
         let cells = Cells::Tetrahedra(vec![[0, 1, 2, 3], [1, 2, 3, 4]]);
-        let faces = [
-            [0, 1, 3],
-            [2, 0, 3],
-            [0, 2, 1],
-            [1, 2, 4],
-            [2, 3, 4],
-            [3, 1, 4],
-        ];
+        let faces = [[0, 1, 3], [2, 0, 3], [0, 2, 1], [1, 2, 4], [2, 3, 4], [3, 1, 4]];
         assert_eq!(cells.boundary().unwrap(), faces.map(Face::Triangle));
     }
 
@@ -209,18 +185,13 @@ mod tests {
     fn a_face_of_three_cells_is_named() {
         let cells = Cells::Tetrahedra(vec![[0, 1, 2, 3], [0, 2, 1, 4], [0, 1, 2, 5]]);
         let error = cells.boundary().unwrap_err();
-        assert_eq!(
-            (error.kind, error.place),
-            (ErrorKind::Mesh, Some(Place::Cell(2)))
-        );
+        assert_eq!((error.kind, error.place), (ErrorKind::Mesh, Some(Place::Cell(2))));
     }
 
     #[test]
     fn triangles_and_tetrahedra_are_borrowed() {
         let mesh = tet_box([1, 1, 1]);
-        let Simplices::Tetrahedra(t) = mesh.cells.simplices() else {
-            panic!("not a volume")
-        };
+        let Simplices::Tetrahedra(t) = mesh.cells.simplices() else { panic!("not a volume") };
         assert!(matches!(t, Cow::Borrowed(_)));
     }
 

@@ -29,12 +29,7 @@ struct Cell {
 ///
 /// # Errors
 /// `Cancelled`; `Internal` if a point cannot be found, which the theory rules out.
-pub(super) fn tetrahedra(
-    points: &[Point],
-    frame: [u32; 4],
-    order: &[u32],
-    context: &Context,
-) -> Result<Vec<[u32; 4]>> {
+pub(super) fn tetrahedra(points: &[Point], frame: [u32; 4], order: &[u32], context: &Context) -> Result<Vec<[u32; 4]>> {
     let mut delaunay = Delaunay::new(points, frame);
     for (done, &p) in order.iter().enumerate() {
         if done % REPORT == 0 {
@@ -63,11 +58,7 @@ struct Delaunay<'a> {
 
 impl<'a> Delaunay<'a> {
     fn new(points: &'a [Point], frame: [u32; 4]) -> Self {
-        let mut cells = vec![Cell {
-            vertices: frame,
-            neighbours: [1, 2, 3, 4],
-            seen: 0,
-        }];
+        let mut cells = vec![Cell { vertices: frame, neighbours: [1, 2, 3, 4], seen: 0 }];
         for i in 0..4 {
             let mut vertices = frame;
             let mut neighbours = [1, 2, 3, 4];
@@ -76,21 +67,9 @@ impl<'a> Delaunay<'a> {
             // Seen from outside a facet turns the other way.
             vertices.swap((i + 1) % 4, (i + 2) % 4);
             neighbours.swap((i + 1) % 4, (i + 2) % 4);
-            cells.push(Cell {
-                vertices,
-                neighbours,
-                seen: 0,
-            });
+            cells.push(Cell { vertices, neighbours, seen: 0 });
         }
-        Self {
-            points,
-            cells,
-            free: Vec::new(),
-            last: 0,
-            round: 0,
-            cavity: Vec::new(),
-            rim: Vec::new(),
-        }
+        Self { points, cells, free: Vec::new(), last: 0, round: 0, cavity: Vec::new(), rim: Vec::new() }
     }
 
     fn insert(&mut self, p: u32) -> Result<()> {
@@ -124,17 +103,13 @@ impl<'a> Delaunay<'a> {
             if cell.vertices.contains(&INFINITE) {
                 return Ok(at);
             }
-            let leads =
-                |&i: &usize| cell.neighbours[i] != from && self.side(cell.vertices, i, p) < 0;
+            let leads = |&i: &usize| cell.neighbours[i] != from && self.side(cell.vertices, i, p) < 0;
             match (0..4).find(leads) {
                 Some(i) => (from, at) = (at, cell.neighbours[i]),
                 None => return Ok(at),
             }
         }
-        Err(Error::new(
-            ErrorKind::Internal,
-            "lost on the way to a corner",
-        ))
+        Err(Error::new(ErrorKind::Internal, "lost on the way to a corner"))
     }
 
     /// Whether `p` lies in the perturbed circumsphere of cell `c`, or sees the facet if it is infinite.

@@ -54,9 +54,7 @@ pub fn neighbours(points: &[[i64; 3]], context: &Context) -> Result<Vec<[u32; 2]
 /// The edges between the first `count` vertices, ascending, each once.
 fn edges(cells: &[[u32; 4]], count: usize) -> Vec<[u32; 2]> {
     const CORNERS: [[usize; 2]; 6] = [[0, 1], [0, 2], [0, 3], [1, 2], [1, 3], [2, 3]];
-    let all = cells
-        .iter()
-        .flat_map(|c| CORNERS.map(|[i, j]| [c[i].min(c[j]), c[i].max(c[j])]));
+    let all = cells.iter().flat_map(|c| CORNERS.map(|[i, j]| [c[i].min(c[j]), c[i].max(c[j])]));
     let (mut seconds, ends) = grouped(all.filter(|&[_, b]| (b as usize) < count), count);
     let mut edges = Vec::new();
     let mut start = 0;

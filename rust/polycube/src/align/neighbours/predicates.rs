@@ -56,20 +56,14 @@ fn in_sphere_exact(rows: [[i128; 3]; 4]) -> i32 {
     let lengths = rows.map(dot);
     let limb = |k: u32| -> i128 {
         let mask = (1 << LIMB) - 1;
-        (0..4)
-            .map(|i| m[i] * (lengths[i] >> (k * LIMB) & mask))
-            .sum()
+        (0..4).map(|i| m[i] * (lengths[i] >> (k * LIMB) & mask)).sum()
     };
     // Shifts round down, so what is left behind is never negative and only breaks a tie at zero.
     let low = limb(0);
     let middle = limb(1) + (low >> LIMB);
     let high = limb(2) + (middle >> LIMB);
     let rest = (low | middle) & ((1 << LIMB) - 1);
-    if high == 0 {
-        rest.signum() as i32
-    } else {
-        high.signum() as i32
-    }
+    if high == 0 { rest.signum() as i32 } else { high.signum() as i32 }
 }
 
 /// The cofactors of the column of squared lengths.

@@ -31,18 +31,11 @@ impl Sites {
         let mut members: Vec<u32> = (0..input.len() as u32).collect();
         members.sort_unstable_by_key(|&i| (input[i as usize], i));
         let at = |k: usize| input[members[k] as usize];
-        let mut starts: Vec<usize> = (0..members.len())
-            .filter(|&k| k == 0 || at(k) != at(k - 1))
-            .collect();
+        let mut starts: Vec<usize> = (0..members.len()).filter(|&k| k == 0 || at(k) != at(k - 1)).collect();
         let mut points = normalized(starts.iter().map(|&k| at(k)).collect());
         starts.push(members.len());
         let frame = frame(&mut points);
-        Ok(Self {
-            points,
-            members,
-            starts,
-            frame,
-        })
+        Ok(Self { points, members, starts, frame })
     }
 
     /// How many sites there are, helpers excluded.
@@ -61,13 +54,7 @@ impl Sites {
         let curve = Curve::new(&self.points);
         let mut keyed: Vec<_> = (0..self.len() as u32)
             .filter(|site| !self.frame.contains(site))
-            .map(|site| {
-                (
-                    Reverse(round(site)),
-                    curve.place(self.points[site as usize]),
-                    site,
-                )
-            })
+            .map(|site| (Reverse(round(site)), curve.place(self.points[site as usize]), site))
             .collect();
         keyed.sort_unstable();
         keyed.into_iter().map(|(_, _, site)| site).collect()
@@ -81,11 +68,8 @@ fn check(input: &[[i64; 3]]) -> Result<()> {
     let far = |p: &[i64; 3]| p.iter().any(|x| !(-LIMIT..=LIMIT).contains(x));
     match input.iter().position(far) {
         None => Ok(()),
-        Some(i) => Err(Error::new(
-            ErrorKind::Unsupported,
-            format!("corner {i} at {:?} lies beyond ±2^30", input[i]),
-        )
-        .remedy("scale the lattice down")),
+        Some(i) => Err(Error::new(ErrorKind::Unsupported, format!("corner {i} at {:?} lies beyond ±2^30", input[i]))
+            .remedy("scale the lattice down")),
     }
 }
 
@@ -169,9 +153,7 @@ struct Curve {
 impl Curve {
     fn new(points: &[Point]) -> Self {
         let bits = u64::BITS - (extent(points) as u64).leading_zeros();
-        Self {
-            shift: bits.saturating_sub(CURVE_BITS),
-        }
+        Self { shift: bits.saturating_sub(CURVE_BITS) }
     }
 
     fn place(&self, p: Point) -> u64 {

@@ -45,8 +45,7 @@ fn tetrahedra(points: &[P]) -> Vec<[P; 4]> {
     let sites = Sites::new(points).unwrap();
     assert_eq!(sites.points.len(), sites.len(), "no helpers in space");
     let order = sites.insertion_order();
-    let cells =
-        delaunay::tetrahedra(&sites.points, sites.frame, &order, &Context::default()).unwrap();
+    let cells = delaunay::tetrahedra(&sites.points, sites.frame, &order, &Context::default()).unwrap();
     let place = |v: u32| points[sites.members(v as usize)[0] as usize];
     cells.iter().map(|c| c.map(place)).collect()
 }
@@ -62,10 +61,7 @@ fn assert_delaunay(points: &[P]) -> i128 {
         }
         for apex in cell {
             let facet: BTreeSet<P> = cell.into_iter().filter(|&p| p != apex).collect();
-            facets
-                .entry(facet.into_iter().collect())
-                .or_default()
-                .push(apex);
+            facets.entry(facet.into_iter().collect()).or_default().push(apex);
         }
     }
     for (f, apexes) in facets {
@@ -83,22 +79,12 @@ fn assert_delaunay(points: &[P]) -> i128 {
 fn assert_pairs(points: &[P]) {
     let found = pairs(points);
     assert!(found.is_sorted_by(|a, b| a < b));
-    assert!(
-        found
-            .iter()
-            .all(|[a, b]| a < b && (*b as usize) < points.len())
-    );
+    assert!(found.iter().all(|[a, b]| a < b && (*b as usize) < points.len()));
     for (j, &b) in points.iter().enumerate() {
         for (i, &a) in points[..j].iter().enumerate() {
             let others = points.iter().filter(|&&p| p != a && p != b);
-            if others
-                .into_iter()
-                .all(|&p| dot(minus(p, a), minus(p, b)) > 0)
-            {
-                assert!(
-                    found.binary_search(&[i as u32, j as u32]).is_ok(),
-                    "{a:?} {b:?}"
-                );
+            if others.into_iter().all(|&p| dot(minus(p, a), minus(p, b)) > 0) {
+                assert!(found.binary_search(&[i as u32, j as u32]).is_ok(), "{a:?} {b:?}");
             }
         }
     }
@@ -134,12 +120,8 @@ fn collinear_points_meet_their_successors() {
 
 #[test]
 fn coplanar_grids_give_the_flat_triangulation() {
-    let directions: [[P; 2]; 4] = [
-        [[1, 0, 0], [0, 1, 0]],
-        [[0, 3, 0], [0, 0, 3]],
-        [[0, 0, 1], [1, 0, 0]],
-        [[1, 1, 0], [1, -1, 0]],
-    ];
+    let directions: [[P; 2]; 4] =
+        [[[1, 0, 0], [0, 1, 0]], [[0, 3, 0], [0, 0, 3]], [[0, 0, 1], [1, 0, 0]], [[1, 1, 0], [1, -1, 0]]];
     for [u, v] in directions {
         let at = |[i, j, _]: P| [0, 1, 2].map(|k| 5 + i * u[k] + j * v[k]);
         let points: Vec<P> = grid(6, 6, 1).into_iter().map(at).collect();
@@ -187,16 +169,7 @@ fn points_on_one_sphere_are_delaunay() {
 #[test]
 fn duplicates_share_their_neighbours_and_know_each_other() {
     let points = [[0, 0, 0], [4, 0, 0], [0, 0, 0], [9, 0, 0], [4, 0, 0]];
-    let expected = [
-        [0, 1],
-        [0, 2],
-        [0, 4],
-        [1, 2],
-        [1, 3],
-        [1, 4],
-        [2, 4],
-        [3, 4],
-    ];
+    let expected = [[0, 1], [0, 2], [0, 4], [1, 2], [1, 3], [1, 4], [2, 4], [3, 4]];
     assert_eq!(pairs(&points), expected);
     assert_eq!(pairs(&[[3, 3, 3]; 3]), [[0, 1], [0, 2], [1, 2]]);
 }
@@ -206,10 +179,7 @@ fn moving_and_scaling_to_the_limit_changes_nothing() {
     let points = box_surface(5, 4, 6);
     let expected = pairs(&points);
     let step = (1 << 31) / 5;
-    let far: Vec<P> = points
-        .iter()
-        .map(|p| p.map(|x| x * step - (1 << 30)))
-        .collect();
+    let far: Vec<P> = points.iter().map(|p| p.map(|x| x * step - (1 << 30))).collect();
     assert_eq!(pairs(&far), expected);
 }
 
@@ -217,9 +187,8 @@ fn moving_and_scaling_to_the_limit_changes_nothing() {
 fn large_numbers_make_the_same_tetrahedra() {
     let sites = Sites::new(&box_surface(5, 4, 6)).unwrap();
     let order = sites.insertion_order();
-    let run = |points: &[predicates::Point]| {
-        delaunay::tetrahedra(points, sites.frame, &order, &Context::default()).unwrap()
-    };
+    let run =
+        |points: &[predicates::Point]| delaunay::tetrahedra(points, sites.frame, &order, &Context::default()).unwrap();
     let expected = run(&sites.points);
     for step in [999.0, 65_537.0, f64::from((1 << 30) / 5)] {
         let large: Vec<_> = sites.points.iter().map(|p| p.map(|x| x * step)).collect();

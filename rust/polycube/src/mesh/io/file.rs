@@ -1,0 +1,85 @@
+//! Whole files in and out, without ever leaving half a file behind.
+
+use crate::error::{Error, ErrorKind, Result};
+use std::fs;
+use std::io::{self, Write};
+use std::path::{Path, PathBuf};
+
+/// The whole file at `path`.
+pub(super) fn read_file(path: &Path) -> Result<Vec<u8>> {
+    let fail = |error: io::Error| io_error("read", path, &error);
+    // A device such as /dev/zero never ends.
+    if !fs::metadata(path).map_err(fail)?.is_file() {
+        let message = format!("{} is not a file", path.display());
+        return Err(Error::new(ErrorKind::Io, message).remedy("name a regular file"));
+    }
+    fs::read(path).map_err(fail)
+}
+
+/// Writes a file as a whole or not at all: whatever goes wrong, an older file stays as it was.
+///
+/// The bytes go to a temporary file in the same folder, are flushed to the disk, and the file is renamed.
+/// A symbolic link is followed; the permissions of an older file are kept; a device or pipe is written to directly.
+///
+/// # Errors
+/// [`ErrorKind::Io`] naming the path and saying what the operating system said. No temporary file is left.
+pub fn write_atomically(path: &Path, bytes: &[u8]) -> Result<()> {
+    replace(path, bytes).map_err(|error| io_error("write", path, &error))
+}
+
+fn replace(path: &Path, bytes: &[u8]) -> io::Result<()> {
+    let old = fs::metadata(path).ok();
+    let target = match &old {
+        Some(data) if data.is_dir() => return Err(io::ErrorKind::IsADirectory.into()),
+        Some(data) if !data.is_file() => return fs::write(path, bytes),
+        Some(data) if data.permissions().readonly() => {
+            return Err(io::ErrorKind::PermissionDenied.into());
+        }
+        Some(_) => fs::canonicalize(path)?,
+        None => path.to_owned(),
+    };
+    let folder = folder_of(&target);
+    let mut file = temporary(&folder)?;
+    file.write_all(bytes)?;
+    if let Some(data) = old {
+        file.as_file().set_permissions(data.permissions())?;
+    }
+    file.as_file().sync_all()?;
+    file.persist(&target).map_err(|error| error.error)?;
+    // Makes the new name durable too; where folders cannot be opened or synced the file is complete all the same.
+    if let Ok(folder) = fs::File::open(&folder) {
+        let _ = folder.sync_all();
+    }
+    Ok(())
+}
+
+fn folder_of(path: &Path) -> PathBuf {
+    match path.parent() {
+        Some(parent) if !parent.as_os_str().is_empty() => parent.to_owned(),
+        _ => PathBuf::from("."),
+    }
+}
+
+fn temporary(folder: &Path) -> io::Result<tempfile::NamedTempFile> {
+    let mut builder = tempfile::Builder::new();
+    builder.prefix(".polycube-").suffix(".tmp");
+    // A temporary file is private by default, but this one becomes an ordinary file.
+    #[cfg(unix)]
+    builder.permissions(std::os::unix::fs::PermissionsExt::from_mode(0o666));
+    builder.tempfile_in(folder)
+}
+
+fn io_error(action: &str, path: &Path, error: &io::Error) -> Error {
+    let remedy = match error.kind() {
+        io::ErrorKind::NotFound if action == "write" => "create the folder first",
+        io::ErrorKind::NotFound => "check the path",
+        io::ErrorKind::PermissionDenied | io::ErrorKind::ReadOnlyFilesystem => {
+            "check the permissions of the file and its folder"
+        }
+        io::ErrorKind::StorageFull | io::ErrorKind::QuotaExceeded => "free some space",
+        io::ErrorKind::IsADirectory | io::ErrorKind::NotADirectory => "name a file",
+        _ => "",
+    };
+    let message = format!("cannot {action} {}: {error}", path.display());
+    Error::new(ErrorKind::Io, message).remedy(remedy)
+}

@@ -1,0 +1,143 @@
+//! Mesh files: OBJ, OFF, PLY, STL, MEDIT, VTK and VTU.
+//!
+//! Every reader takes the bytes of a file and returns a [`Mesh`] or an [`Error`] that says where the file
+//! is wrong. No input panics, loops, or takes more memory than in proportion to its size.
+
+mod field;
+mod file;
+mod format;
+mod labels;
+mod medit;
+mod obj;
+mod off;
+mod pair;
+mod ply;
+mod ply_header;
+mod scalar;
+mod scan;
+mod soup;
+mod stl;
+mod text;
+mod vtk;
+mod vtk_cells;
+mod vtu;
+mod vtu_data;
+
+#[cfg(test)]
+mod tests;
+
+pub use field::{CellField, FieldValues};
+pub use file::write_atomically;
+pub use format::Format;
+pub use labels::{parse_labels, read_labels, write_labels};
+pub use pair::read_pair;
+
+use super::{Mesh, Point};
+use crate::error::{Error, ErrorKind, Place, Result};
+use std::path::Path;
+
+/// Reads a mesh from a file whose extension tells the format.
+///
+/// Vertices keep their order, used or not; coordinates keep the file's unit. Where a file holds volume
+/// and surface, the volume is taken. A surface of quadrilaterals stays one; any other is split into
+/// triangles, each face as a fan around its first corner. The corners of STL are welded where they coincide exactly.
+///
+/// # Errors
+/// [`ErrorKind::Io`] when the file cannot be read; [`ErrorKind::Parse`] with the line or cell when it is
+/// malformed; [`ErrorKind::Mesh`] when it holds no cells or a coordinate that is not finite;
+/// [`ErrorKind::Unsupported`] for other formats and other cells, or tetrahedra mixed with hexahedra.
+pub fn read(path: &Path) -> Result<Mesh> {
+    let format = Format::from_path(path)?;
+    read_bytes(format, &file::read_file(path)?).map_err(in_file(path))
+}
+
+/// Reads a mesh as [`read`] does, from the bytes of a file.
+///
+/// # Errors
+/// As [`read`], but never [`ErrorKind::Io`].
+pub fn read_bytes(format: Format, bytes: &[u8]) -> Result<Mesh> {
+    match format {
+        Format::Obj => obj::read(bytes),
+        Format::Off => off::read(bytes),
+        Format::Ply => ply::read(bytes),
+        Format::Stl => stl::read(bytes),
+        Format::Medit => medit::read(bytes),
+        Format::Vtk => vtk::read(bytes),
+        Format::Vtu => vtu::read(bytes),
+    }
+}
+
+/// Writes a mesh to a file whose extension tells the format, whole or not at all (see [`write_atomically`]).
+///
+/// PLY, VTK and VTU hold every field. MEDIT holds one of integers, as reference numbers: `label`, or else
+/// `block_id`. The other formats leave fields out.
+///
+/// # Errors
+/// As [`write_bytes`], and [`ErrorKind::Io`] when the file cannot be written.
+pub fn write(path: &Path, mesh: &Mesh, fields: &[CellField]) -> Result<()> {
+    let bytes = write_bytes(Format::from_path(path)?, mesh, fields)?;
+    write_atomically(path, &bytes)
+}
+
+/// The bytes of the file that [`write`] would write. The same mesh always gives the same bytes.
+///
+/// Coordinates read back as the very same numbers, except from STL, which holds single precision only.
+///
+/// # Errors
+/// [`ErrorKind::Unsupported`] when the format cannot hold the cells; [`ErrorKind::Mesh`] when there are none,
+/// a coordinate is not finite or a cell names a vertex that is not there; [`ErrorKind::Option`] when a
+/// field has not one value per cell, or a name that is empty, taken, or has other characters than
+/// letters, digits and `_ - . :`.
+pub fn write_bytes(format: Format, mesh: &Mesh, fields: &[CellField]) -> Result<Vec<u8>> {
+    format.require(mesh.cells.kind())?;
+    check_mesh(mesh)?;
+    field::check_fields(fields, mesh.cells.len())?;
+    match format {
+        Format::Obj => Ok(obj::write(mesh)),
+        Format::Off => Ok(off::write(mesh)),
+        Format::Ply => Ok(ply::write(mesh, fields)),
+        Format::Stl => stl::write(mesh),
+        Format::Medit => Ok(medit::write(mesh, fields)),
+        Format::Vtk => Ok(vtk::write(mesh, fields)),
+        Format::Vtu => Ok(vtu::write(mesh, fields)),
+    }
+}
+
+/// Adds the name of the file to what is wrong in it.
+fn in_file(path: &Path) -> impl Fn(Error) -> Error {
+    move |mut error| {
+        error.message = format!("{} in {}", error.message, path.display());
+        error
+    }
+}
+
+/// Refuses coordinates that are not finite, and more points than indices can name.
+fn check_points(points: &[Point]) -> Result<()> {
+    if u32::try_from(points.len()).is_err() {
+        let message = "more vertices than 32-bit indices can name";
+        return Err(Error::new(ErrorKind::Unsupported, message));
+    }
+    let bad = points.iter().position(|p| p.iter().any(|x| !x.is_finite()));
+    let Some(i) = bad else { return Ok(()) };
+    let vertex = u32::try_from(i).unwrap_or(u32::MAX);
+    Err(Error::new(ErrorKind::Mesh, "a coordinate is not a finite number")
+        .at(Place::Vertex(vertex))
+        .remedy("repair or remove the vertex and export the mesh again"))
+}
+
+/// Refuses a mesh that could not be read back.
+fn check_mesh(mesh: &Mesh) -> Result<()> {
+    check_points(&mesh.points)?;
+    if mesh.cells.is_empty() {
+        return Err(Error::new(ErrorKind::Mesh, "a mesh without cells cannot be written"));
+    }
+    for i in 0..mesh.cells.len() {
+        let bad = mesh.cells.cell(i).iter().find(|&&v| v as usize >= mesh.points.len());
+        if let Some(vertex) = bad {
+            let message = format!("vertex {vertex} does not exist");
+            let place = Place::Cell(u32::try_from(i).unwrap_or(u32::MAX));
+            return Err(Error::new(ErrorKind::Mesh, message).at(place));
+        }
+    }
+    Ok(())
+}

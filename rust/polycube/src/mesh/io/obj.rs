@@ -1,0 +1,114 @@
+//! Wavefront OBJ: vertices and faces; texture, normals, groups, lines and all else are ignored.
+
+use super::scan::{Scanner, number, quoted, without_mark};
+use super::soup::Soup;
+use super::text::Text;
+use crate::error::{Error, ErrorKind, Place, Result};
+use crate::mesh::{Mesh, Point};
+
+/// Reads a mesh; vertices are neither merged nor dropped.
+pub(super) fn read(bytes: &[u8]) -> Result<Mesh> {
+    let mut soup = Soup::default();
+    let mut corners = Vec::new();
+    let mut scanner = Scanner::new(without_mark(bytes));
+    loop {
+        let line = scanner.line();
+        let Some(text) = scanner.rest_of_line() else {
+            break;
+        };
+        let start = text.iter().position(|b| !b.is_ascii_whitespace());
+        let rest = match text.get(start.unwrap_or(text.len())..) {
+            Some([b'v' | b'f', rest @ ..]) if rest.first().is_none_or(separates) => rest,
+            _ => continue,
+        };
+        let is_vertex = start.is_some_and(|s| text[s] == b'v');
+        // Only these lines continue: a path or a comment that ends in a backslash does not.
+        let statement = Statement { rest, line, is_vertex };
+        statement.read(&mut scanner, &mut soup, &mut corners)?;
+    }
+    soup.finish()
+}
+
+struct Statement<'a> {
+    rest: &'a [u8],
+    line: usize,
+    is_vertex: bool,
+}
+
+impl Statement<'_> {
+    fn read(&self, scanner: &mut Scanner, soup: &mut Soup, corners: &mut Vec<u32>) -> Result<()> {
+        let mut point = Point::origin();
+        let mut count = 0;
+        let mut text = self.rest;
+        corners.clear();
+        loop {
+            for word in words(text) {
+                if !self.is_vertex {
+                    corners.push(self.corner(word, soup.points.len())?);
+                } else if count < 3 {
+                    point[count] = number(word).ok_or_else(|| self.bad("a coordinate", word))?;
+                    count += 1;
+                }
+            }
+            if !continues(text) {
+                break;
+            }
+            text = scanner.rest_of_line().unwrap_or_default();
+        }
+        if !self.is_vertex {
+            return soup.polygon(corners, self.line);
+        }
+        if count < 3 {
+            return Err(self.error(format!("a vertex with {count} of 3 coordinates")));
+        }
+        soup.points.push(point);
+        Ok(())
+    }
+
+    /// The vertex of `a`, `a/b`, `a//c` or `a/b/c`; negative numbers count back from the vertex read last.
+    fn corner(&self, word: &[u8], vertices: usize) -> Result<u32> {
+        let first = word.split(|&b| b == b'/').next().unwrap_or_default();
+        let index: i64 = number(first).ok_or_else(|| self.bad("a vertex number", word))?;
+        let zero_based = match index {
+            0 => None,
+            1.. => Some(index - 1),
+            _ => i64::try_from(vertices).ok().and_then(|n| n.checked_add(index)),
+        };
+        let vertex = zero_based.and_then(|i| u32::try_from(i).ok());
+        vertex.ok_or_else(|| self.error(format!("there is no vertex {index}")))
+    }
+
+    fn error(&self, message: String) -> Error {
+        Error::new(ErrorKind::Parse, message).at(Place::Line(self.line))
+    }
+
+    fn bad(&self, what: &str, word: &[u8]) -> Error {
+        self.error(format!("expected {what}, found {}", quoted(word)))
+    }
+}
+
+fn separates(byte: &u8) -> bool {
+    byte.is_ascii_whitespace() || *byte == b'\\'
+}
+
+/// The words of a physical line, up to a comment.
+fn words(text: &[u8]) -> impl Iterator<Item = &[u8]> {
+    let end = text.iter().position(|&b| b == b'#').unwrap_or(text.len());
+    text[..end].split(separates).filter(|word| !word.is_empty())
+}
+
+fn continues(text: &[u8]) -> bool {
+    text.trim_ascii_end().ends_with(b"\\") && !text.contains(&b'#')
+}
+
+/// Writes a surface.
+pub(super) fn write(mesh: &Mesh) -> Vec<u8> {
+    let mut text = Text::default();
+    for point in &mesh.points {
+        text.put("v ").point(point).end();
+    }
+    for i in 0..mesh.cells.len() {
+        text.put('f').indices(mesh.cells.cell(i), 1).end();
+    }
+    text.into_bytes()
+}

@@ -1,0 +1,55 @@
+//! A polycube and the shape it was deformed from.
+
+use super::{Format, file, in_file, read_bytes, stl};
+use crate::error::{Error, ErrorKind, Place, Result};
+use crate::mesh::Mesh;
+use std::path::Path;
+
+/// Reads a polycube and its shape, two meshes with the same connectivity, in this order.
+///
+/// Both are read as [`read`](super::read) does. Of two STL files, which have no connectivity of their own,
+/// two corners become one vertex where both files agree that they coincide.
+///
+/// # Errors
+/// As [`read`](super::read), and [`ErrorKind::Mismatch`] naming the first difference when the meshes do not
+/// have the same kind of cells, as many vertices, and the same cells in the same order.
+pub fn read_pair(polycube: &Path, shape: &Path) -> Result<(Mesh, Mesh)> {
+    let formats = (Format::from_path(polycube)?, Format::from_path(shape)?);
+    let (a, b) = (file::read_file(polycube)?, file::read_file(shape)?);
+    if formats == (Format::Stl, Format::Stl) {
+        let a = stl::corners(&a).map_err(in_file(polycube))?;
+        let b = stl::corners(&b).map_err(in_file(shape))?;
+        return stl::pair(&a, &b);
+    }
+    let a = read_bytes(formats.0, &a).map_err(in_file(polycube))?;
+    let b = read_bytes(formats.1, &b).map_err(in_file(shape))?;
+    compare(&a, &b)?;
+    Ok((a, b))
+}
+
+fn compare(polycube: &Mesh, shape: &Mesh) -> Result<()> {
+    let (a, b) = (&polycube.cells, &shape.cells);
+    if a.kind() != b.kind() {
+        let (a, b) = (a.kind(), b.kind());
+        return Err(mismatch(format!("the polycube has {a}, the shape {b}")));
+    }
+    let (n, m) = (polycube.points.len(), shape.points.len());
+    if n != m {
+        return Err(mismatch(format!("the polycube has {n} vertices, the shape {m}")));
+    }
+    if let Some(i) = (0..a.len().min(b.len())).find(|&i| a.cell(i) != b.cell(i)) {
+        let (a, b) = (a.cell(i), b.cell(i));
+        let message = format!("vertices {a:?} in the polycube, {b:?} in the shape");
+        return Err(mismatch(message).at(Place::Cell(u32::try_from(i).unwrap_or(u32::MAX))));
+    }
+    if a.len() != b.len() {
+        let (n, m, kind) = (a.len(), b.len(), a.kind());
+        return Err(mismatch(format!("the polycube has {n} {kind}, the shape {m}")));
+    }
+    Ok(())
+}
+
+fn mismatch(message: String) -> Error {
+    Error::new(ErrorKind::Mismatch, message)
+        .remedy("export both in one format from one mesh, without reordering or merging vertices")
+}

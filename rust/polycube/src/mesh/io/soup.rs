@@ -1,0 +1,128 @@
+//! What a file holds, before one kind of cell is chosen for the mesh.
+
+use super::check_points;
+use crate::error::{Error, ErrorKind, Place, Result};
+use crate::mesh::{Cells, Mesh, Point};
+
+#[derive(Clone, Copy, PartialEq, Eq)]
+enum Shape {
+    Polygon,
+    Tetrahedron,
+    Hexahedron,
+}
+
+struct Entry {
+    shape: Shape,
+    /// Line in the file, or 0 where lines mean nothing.
+    line: usize,
+    end: usize,
+}
+
+/// Points and polygons, tetrahedra and hexahedra over them, in the order of the file.
+#[derive(Default)]
+pub(super) struct Soup {
+    /// Vertex positions.
+    pub(super) points: Vec<Point>,
+    corners: Vec<u32>,
+    entries: Vec<Entry>,
+}
+
+impl Soup {
+    fn add(&mut self, shape: Shape, corners: &[u32], line: usize) {
+        self.corners.extend_from_slice(corners);
+        let end = self.corners.len();
+        self.entries.push(Entry { shape, line, end });
+    }
+
+    /// Adds a face. `line` is where the file says so, 0 where lines mean nothing.
+    pub(super) fn polygon(&mut self, corners: &[u32], line: usize) -> Result<()> {
+        if corners.len() < 3 {
+            let message = format!("a face of {} corners", corners.len());
+            return Err(Error::new(ErrorKind::Parse, message)
+                .at(place(line, self.entries.len()))
+                .remedy("every face needs three corners or more"));
+        }
+        self.add(Shape::Polygon, corners, line);
+        Ok(())
+    }
+
+    /// Adds a tetrahedron.
+    pub(super) fn tetrahedron(&mut self, corners: [u32; 4], line: usize) {
+        self.add(Shape::Tetrahedron, &corners, line);
+    }
+
+    /// Adds a hexahedron.
+    pub(super) fn hexahedron(&mut self, corners: [u32; 8], line: usize) {
+        self.add(Shape::Hexahedron, &corners, line);
+    }
+
+    fn cells(&self) -> impl Iterator<Item = (&Entry, &[u32])> {
+        let mut start = 0;
+        self.entries.iter().map(move |entry| {
+            let corners = &self.corners[start..entry.end];
+            start = entry.end;
+            (entry, corners)
+        })
+    }
+
+    fn of(&self, shape: Shape) -> impl Iterator<Item = &[u32]> {
+        self.cells().filter(move |(entry, _)| entry.shape == shape).map(|(_, corners)| corners)
+    }
+
+    fn check(&self) -> Result<()> {
+        check_points(&self.points)?;
+        if self.entries.is_empty() {
+            return Err(Error::new(ErrorKind::Mesh, "the file holds no cells")
+                .remedy("export faces, tetrahedra or hexahedra along with the vertices"));
+        }
+        let count = self.points.len();
+        for (i, (entry, corners)) in self.cells().enumerate() {
+            if let Some(vertex) = corners.iter().find(|&&v| v as usize >= count) {
+                let message = format!("a cell names vertex {vertex} (counting from 0) of a mesh with {count} vertices");
+                return Err(Error::new(ErrorKind::Parse, message).at(place(entry.line, i)));
+            }
+        }
+        Ok(())
+    }
+
+    /// The mesh: volume before surface, all quadrilaterals or else triangles.
+    pub(super) fn finish(self) -> Result<Mesh> {
+        self.check()?;
+        let tetrahedra = arrays(self.of(Shape::Tetrahedron));
+        let hexahedra = arrays(self.of(Shape::Hexahedron));
+        let cells = match (tetrahedra.is_empty(), hexahedra.is_empty()) {
+            (false, false) => return Err(mixed_volume()),
+            (false, true) => Cells::Tetrahedra(tetrahedra),
+            (true, false) => Cells::Hexahedra(hexahedra),
+            (true, true) => self.surface(),
+        };
+        let points = self.points;
+        Ok(Mesh { points, cells })
+    }
+
+    fn surface(&self) -> Cells {
+        if self.of(Shape::Polygon).all(|corners| corners.len() == 4) {
+            return Cells::Quads(arrays(self.of(Shape::Polygon)));
+        }
+        let fan = |c: &[u32]| -> Vec<_> { c[1..].windows(2).map(|w| [c[0], w[0], w[1]]).collect() };
+        Cells::Triangles(self.of(Shape::Polygon).flat_map(fan).collect())
+    }
+}
+
+fn place(line: usize, cell: usize) -> Place {
+    match line {
+        0 => Place::Cell(u32::try_from(cell).unwrap_or(u32::MAX)),
+        _ => Place::Line(line),
+    }
+}
+
+/// The cells that have `N` corners.
+fn arrays<'a, const N: usize>(cells: impl Iterator<Item = &'a [u32]>) -> Vec<[u32; N]> {
+    cells.filter_map(|c| c.try_into().ok()).collect()
+}
+
+fn mixed_volume() -> Error {
+    let message = "the file mixes tetrahedra and hexahedra";
+    Error::new(ErrorKind::Unsupported, message)
+        .remedy("export one kind of cell, or split every hexahedron into tetrahedra")
+}

@@ -1,0 +1,237 @@
+//! Legacy VTK files: unstructured grids and polygonal data, versions 2 to 5.1, text and binary.
+
+use super::field::{CellField, FieldValues};
+use super::scalar::{Endian, Scalar};
+use super::scan::{Scanner, number};
+use super::soup::Soup;
+use super::text::Text;
+use super::vtk_cells::{POLYGON, VtkCells, number_of, points};
+use crate::error::{Error, ErrorKind, Result};
+use crate::mesh::Mesh;
+
+/// Reads a mesh; the data on points and cells are ignored.
+pub(super) fn read(bytes: &[u8]) -> Result<Mesh> {
+    let mut reader = Reader::new(bytes)?;
+    while let Some(keyword) = reader.scanner.word() {
+        if matches!(keyword, b"CELL_DATA" | b"POINT_DATA") {
+            break;
+        }
+        reader.section(keyword)?;
+    }
+    reader.finish()
+}
+
+struct Reader<'a> {
+    scanner: Scanner<'a>,
+    binary: bool,
+    /// Version 5 lists the offsets of the cells; earlier ones the number of corners before each cell.
+    offsets: bool,
+    soup: Soup,
+    cells: VtkCells,
+}
+
+impl<'a> Reader<'a> {
+    fn new(bytes: &'a [u8]) -> Result<Self> {
+        let mut scanner = Scanner::new(bytes);
+        let first = scanner.rest_of_line().unwrap_or_default().trim_ascii();
+        let version = first.strip_prefix(b"# vtk DataFile Version ");
+        let version = version.and_then(|v| number::<f64>(v.trim_ascii()));
+        let version = version.ok_or_else(|| scanner.unexpected("# vtk DataFile Version", first))?;
+        // The title.
+        scanner.rest_of_line();
+        let encoding = scanner.expect("ASCII or BINARY")?;
+        let binary = encoding == b"BINARY";
+        if !binary && encoding != b"ASCII" {
+            return Err(scanner.unexpected("ASCII or BINARY", encoding));
+        }
+        Ok(Self {
+            scanner,
+            binary,
+            offsets: version >= 5.0,
+            soup: Soup::default(),
+            cells: VtkCells { types: Vec::new(), ends: Vec::new(), corners: Vec::new() },
+        })
+    }
+
+    fn section(&mut self, keyword: &[u8]) -> Result<()> {
+        match keyword {
+            b"DATASET" => self.dataset(),
+            b"POINTS" => self.points(),
+            b"CELLS" => self.cells(),
+            b"CELL_TYPES" => {
+                let count = self.scanner.count("the number of cells")?;
+                self.cells.types = self.numbers(count, Scalar::I32)?;
+                Ok(())
+            }
+            b"POLYGONS" => {
+                self.cells()?;
+                self.cells.types = vec![f64::from(POLYGON); self.cells.ends.len()];
+                Ok(())
+            }
+            // Their cells are read and forgotten.
+            b"VERTICES" | b"LINES" => self.list().map(|_| ()),
+            b"TRIANGLE_STRIPS" => Err(Error::new(ErrorKind::Unsupported, "the faces are triangle strips")
+                .remedy("export the faces as polygons")),
+            b"FIELD" => self.field(),
+            b"METADATA" => {
+                self.scanner.rest_of_line();
+                while self.scanner.rest_of_line().is_some_and(|line| !line.trim_ascii().is_empty()) {}
+                Ok(())
+            }
+            _ => Err(self.scanner.unexpected("a section of a VTK file", keyword)),
+        }
+    }
+
+    fn dataset(&mut self) -> Result<()> {
+        let name = self.scanner.expect("the kind of data set")?;
+        if matches!(name, b"UNSTRUCTURED_GRID" | b"POLYDATA") {
+            return Ok(());
+        }
+        let message = format!("a data set of kind {}", super::scan::quoted(name));
+        Err(Error::new(ErrorKind::Unsupported, message).remedy("export an unstructured grid or polygonal data"))
+    }
+
+    fn points(&mut self) -> Result<()> {
+        let count = self.scanner.count("the number of points")?;
+        let scalar = self.scalar()?;
+        let coordinates = self.numbers(count.saturating_mul(3), scalar)?;
+        self.soup.points = points(&coordinates);
+        Ok(())
+    }
+
+    fn cells(&mut self) -> Result<()> {
+        (self.cells.ends, self.cells.corners) = self.list()?;
+        Ok(())
+    }
+
+    /// Reads a list of cells: where the corners of each end, and the corners.
+    fn list(&mut self) -> Result<(Vec<f64>, Vec<f64>)> {
+        let count = self.scanner.count("the number of cells")?;
+        let size = self.scanner.count("the size of the list of cells")?;
+        if !self.offsets {
+            let numbers = self.numbers(size, Scalar::I32)?;
+            return self.split(count, &numbers);
+        }
+        let mut ends = self.named(b"OFFSETS", count)?;
+        if !ends.is_empty() {
+            ends.remove(0);
+        }
+        Ok((ends, self.named(b"CONNECTIVITY", size)?))
+    }
+
+    fn split(&self, count: usize, numbers: &[f64]) -> Result<(Vec<f64>, Vec<f64>)> {
+        let mut ends = Vec::with_capacity(count.min(numbers.len()));
+        let mut corners = Vec::with_capacity(numbers.len());
+        let mut rest = numbers;
+        while let Some((&length, tail)) = rest.split_first() {
+            let cell = super::scalar::whole(length).ok().and_then(|n| tail.split_at_checked(n as usize));
+            let (cell, tail) =
+                cell.ok_or_else(|| self.scanner.error(format!("cell {} has {length} corners", ends.len())))?;
+            corners.extend_from_slice(cell);
+            ends.push(corners.len() as f64);
+            rest = tail;
+        }
+        if ends.len() != count {
+            let message = format!("{} cells where {count} were announced", ends.len());
+            return Err(self.scanner.error(message));
+        }
+        Ok((ends, corners))
+    }
+
+    fn named(&mut self, name: &[u8], count: usize) -> Result<Vec<f64>> {
+        let what = String::from_utf8_lossy(name);
+        let word = self.scanner.expect(&what)?;
+        if word != name {
+            return Err(self.scanner.unexpected(&what, word));
+        }
+        let scalar = self.scalar()?;
+        self.numbers(count, scalar)
+    }
+
+    /// Skips a field: some named arrays.
+    fn field(&mut self) -> Result<()> {
+        self.scanner.expect("the name of a field")?;
+        for _ in 0..self.scanner.count("the number of arrays")? {
+            self.scanner.expect("the name of an array")?;
+            let width = self.scanner.count("a number of components")?;
+            let count = self.scanner.count("a number of tuples")?;
+            let scalar = self.scalar()?;
+            self.numbers(count.saturating_mul(width), scalar)?;
+        }
+        Ok(())
+    }
+
+    fn scalar(&mut self) -> Result<Scalar> {
+        let name = self.scanner.expect("the type of the numbers")?;
+        Ok(match name.to_ascii_lowercase().as_slice() {
+            b"char" | b"signed_char" | b"vtktypeint8" => Scalar::I8,
+            b"unsigned_char" | b"vtktypeuint8" => Scalar::U8,
+            b"short" | b"vtktypeint16" => Scalar::I16,
+            b"unsigned_short" | b"vtktypeuint16" => Scalar::U16,
+            b"int" | b"vtkidtype" | b"vtktypeint32" => Scalar::I32,
+            b"unsigned_int" | b"vtktypeuint32" => Scalar::U32,
+            b"long" | b"long_long" | b"vtktypeint64" => Scalar::I64,
+            b"unsigned_long" | b"unsigned_long_long" | b"vtktypeuint64" => Scalar::U64,
+            b"float" => Scalar::F32,
+            b"double" => Scalar::F64,
+            _ => return Err(self.scanner.unexpected("a type of numbers", name)),
+        })
+    }
+
+    fn numbers(&mut self, count: usize, scalar: Scalar) -> Result<Vec<f64>> {
+        if self.binary {
+            self.scanner.rest_of_line();
+            let bytes = self.scanner.take(count.saturating_mul(scalar.size()), "binary numbers")?;
+            return Ok(scalar.read_all(bytes, Endian::Big));
+        }
+        let mut numbers = Vec::with_capacity(self.scanner.capacity(count, 2));
+        for _ in 0..count {
+            numbers.push(self.scanner.float("a number")?);
+        }
+        Ok(numbers)
+    }
+
+    fn finish(mut self) -> Result<Mesh> {
+        self.cells.add_to(&mut self.soup, 0)?;
+        self.soup.finish()
+    }
+}
+
+/// Writes an unstructured grid as text, with the fields as scalars of the cells.
+pub(super) fn write(mesh: &Mesh, fields: &[CellField]) -> Vec<u8> {
+    let mut text = Text::default();
+    text.put("# vtk DataFile Version 3.0\npolycube\nASCII\nDATASET UNSTRUCTURED_GRID\nPOINTS ");
+    text.put(mesh.points.len()).put(" double").end();
+    for point in &mesh.points {
+        text.point(point).end();
+    }
+    let cells = mesh.cells.len();
+    let width = mesh.cells.cell(0).len();
+    text.put(format_args!("CELLS {cells} {}", cells * (width + 1))).end();
+    for i in 0..cells {
+        text.put(width).indices(mesh.cells.cell(i), 0).end();
+    }
+    text.put(format_args!("CELL_TYPES {cells}")).end();
+    for _ in 0..cells {
+        text.put(number_of(mesh.cells.kind())).end();
+    }
+    if !fields.is_empty() {
+        text.put(format_args!("CELL_DATA {cells}")).end();
+    }
+    for field in fields {
+        write_field(&mut text, field);
+    }
+    text.into_bytes()
+}
+
+fn write_field(text: &mut Text, field: &CellField) {
+    let kind = match field.values {
+        FieldValues::Real(_) => "double",
+        FieldValues::Integer(_) => "int",
+    };
+    text.put(format_args!("SCALARS {} {kind} 1\nLOOKUP_TABLE default", field.name)).end();
+    match &field.values {
+        FieldValues::Real(values) => values.iter().for_each(|&x| text.float(x).end()),
+        FieldValues::Integer(values) => values.iter().for_each(|x| text.put(x).end()),
+    }
+}

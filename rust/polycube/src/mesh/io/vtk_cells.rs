@@ -1,0 +1,94 @@
+//! The cells that legacy and XML VTK files share.
+
+use super::scalar::whole;
+use super::soup::Soup;
+use crate::error::{Error, ErrorKind, Place, Result};
+use crate::mesh::{CellKind, Point};
+
+/// VTK's number of a polygon.
+pub(super) const POLYGON: u8 = 7;
+
+/// VTK's number of a kind of cell.
+pub(super) fn number_of(kind: CellKind) -> u8 {
+    match kind {
+        CellKind::Triangles => 5,
+        CellKind::Quads => 9,
+        CellKind::Tetrahedra => 10,
+        CellKind::Hexahedra => 12,
+    }
+}
+
+/// The points of a list of coordinates, which must come in threes.
+pub(super) fn points(coordinates: &[f64]) -> Vec<Point> {
+    let triples = coordinates.chunks_exact(3);
+    triples.map(|x| Point::new(x[0], x[1], x[2])).collect()
+}
+
+/// Cells of any kind: cell `i` has the kind `types[i]` and its corners are those before `ends[i]`.
+pub(super) struct VtkCells {
+    pub(super) types: Vec<f64>,
+    pub(super) ends: Vec<f64>,
+    pub(super) corners: Vec<f64>,
+}
+
+impl VtkCells {
+    /// Adds the cells over points that start at `base`.
+    pub(super) fn add_to(&self, soup: &mut Soup, base: u32) -> Result<()> {
+        if self.types.len() != self.ends.len() {
+            let (cells, types) = (self.ends.len(), self.types.len());
+            let message = format!("the file lists {cells} cells but the types of {types}");
+            return Err(Error::new(ErrorKind::Parse, message));
+        }
+        let mut corners = Vec::new();
+        let mut start = 0;
+        for (i, (kind, end)) in self.types.iter().zip(&self.ends).enumerate() {
+            let here = |error: Error| error.at(Place::Cell(u32::try_from(i).unwrap_or(u32::MAX)));
+            let end = whole(*end).map_err(here)? as usize;
+            let range = self.corners.get(start..end);
+            let range = range.ok_or_else(|| here(bad_offset(end, self.corners.len())))?;
+            corners.clear();
+            for &corner in range {
+                let vertex = whole(corner).map_err(here)?;
+                // Beyond every vertex the index is refused later, with those of other cells.
+                corners.push(base.saturating_add(vertex));
+            }
+            add(soup, *kind, &mut corners).map_err(here)?;
+            start = end;
+        }
+        Ok(())
+    }
+}
+
+fn bad_offset(end: usize, corners: usize) -> Error {
+    let message = format!("its corners end at {end} of {corners}");
+    Error::new(ErrorKind::Parse, message)
+}
+
+fn add(soup: &mut Soup, kind: f64, corners: &mut [u32]) -> Result<()> {
+    match (whole(kind)?, &mut *corners) {
+        // Nothing, vertices and lines.
+        (0..=4, _) => Ok(()),
+        (5, [_, _, _]) | (9, [_, _, _, _]) | (7, _) => soup.polygon(corners, 0),
+        (8, [_, _, c, d]) => {
+            std::mem::swap(c, d);
+            soup.polygon(corners, 0)
+        }
+        (10, &mut [a, b, c, d]) => {
+            soup.tetrahedron([a, b, c, d], 0);
+            Ok(())
+        }
+        (12, &mut [a, b, c, d, e, f, g, h]) | (11, &mut [a, b, d, c, e, f, h, g]) => {
+            soup.hexahedron([a, b, c, d, e, f, g, h], 0);
+            Ok(())
+        }
+        (5 | 8..=12, _) => {
+            let message = format!("a cell of VTK's type {kind} with {} corners", corners.len());
+            Err(Error::new(ErrorKind::Parse, message))
+        }
+        _ => {
+            let message = format!("a cell of VTK's type {kind}");
+            Err(Error::new(ErrorKind::Unsupported, message)
+                .remedy("export linear triangles, quadrilaterals, polygons, tetrahedra or hexahedra"))
+        }
+    }
+}

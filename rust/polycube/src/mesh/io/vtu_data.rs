@@ -1,0 +1,227 @@
+//! The data arrays of VTK's XML files.
+
+use super::scalar::{Endian, Scalar};
+use super::scan::Scanner;
+use super::vtu::{find, line_of};
+use crate::error::{Error, ErrorKind, Result};
+use roxmltree::Node;
+
+/// What the data arrays of a file have in common.
+pub(super) struct Arrays<'a> {
+    endian: Endian,
+    header: Scalar,
+    compressed: bool,
+    appended: Appended<'a>,
+    /// Bytes of appended data that were read so far.
+    used: usize,
+}
+
+#[derive(Clone, Copy)]
+struct Appended<'a> {
+    base64: bool,
+    data: &'a [u8],
+}
+
+impl<'a> Arrays<'a> {
+    /// Reads the attributes of the root; `appended` starts with the tag of the appended data, or is empty.
+    pub(super) fn new(root: &Node, appended: &'a [u8]) -> Result<Self> {
+        let big = root.attribute("byte_order") == Some("BigEndian");
+        let long = root.attribute("header_type") == Some("UInt64");
+        let compressor = root.attribute("compressor");
+        if !matches!(compressor, None | Some("" | "vtkZLibDataCompressor")) {
+            let message = format!("data compressed by {}", compressor.unwrap_or_default());
+            return Err(
+                Error::new(ErrorKind::Unsupported, message).remedy("export it uncompressed or compressed by zlib")
+            );
+        }
+        Ok(Self {
+            endian: if big { Endian::Big } else { Endian::Little },
+            header: if long { Scalar::U64 } else { Scalar::U32 },
+            compressed: compressor.is_some_and(|name| !name.is_empty()),
+            appended: appended_data(appended),
+            used: 0,
+        })
+    }
+
+    /// The numbers of a data array.
+    pub(super) fn numbers(&mut self, array: &Node) -> Result<Vec<f64>> {
+        self.decode(array).map_err(|error| error.at(line_of(array)))
+    }
+
+    fn decode(&mut self, array: &Node) -> Result<Vec<f64>> {
+        let scalar = scalar(array.attribute("type").unwrap_or_default())?;
+        let text = array.text().unwrap_or_default().as_bytes();
+        let bytes = match array.attribute("format") {
+            None | Some("ascii") => return ascii(text),
+            Some("binary") => self.blocks(&mut Source::base64(text))?,
+            Some("appended") => self.appended(array)?,
+            Some(other) => return Err(bad(&format!("unknown format {other:?}"))),
+        };
+        Ok(scalar.read_all(&bytes, self.endian))
+    }
+
+    fn appended(&mut self, array: &Node) -> Result<Vec<u8>> {
+        let offset = array.attribute("offset").and_then(|o| o.trim().parse::<usize>().ok());
+        let data = offset.and_then(|o| self.appended.data.get(o..));
+        let data = data.ok_or_else(|| bad("the offset is outside the appended data"))?;
+        let mut source = Source { base64: self.appended.base64, ..Source::base64(data) };
+        let bytes = self.blocks(&mut source)?;
+        // Arrays do not overlap; if they did, a small file could ask for any amount of memory.
+        self.used = self.used.saturating_add(source.at);
+        if self.used > self.appended.data.len() {
+            return Err(bad("the appended arrays overlap"));
+        }
+        Ok(bytes)
+    }
+
+    fn blocks(&self, source: &mut Source) -> Result<Vec<u8>> {
+        if !self.compressed {
+            let size = self.size(source)?;
+            return source.take(size);
+        }
+        let (count, size, last) = (self.size(source)?, self.size(source)?, self.size(source)?);
+        let mut packed = Vec::new();
+        for _ in 0..count {
+            packed.push(self.size(source)?);
+        }
+        let mut bytes = Vec::new();
+        for (i, length) in packed.into_iter().enumerate() {
+            let partial = i + 1 == count && last > 0;
+            let expected = if partial { last } else { size };
+            let block = source.take(length)?;
+            let block = miniz_oxide::inflate::decompress_to_vec_zlib_with_limit(&block, expected);
+            bytes.extend(block.map_err(|_| bad("the compressed data are damaged"))?);
+        }
+        Ok(bytes)
+    }
+
+    fn size(&self, source: &mut Source) -> Result<usize> {
+        let bytes = source.take(self.header.size())?;
+        let size = self.header.read(&bytes, self.endian);
+        // Beyond the largest size no data follow anyway.
+        Ok(size as usize)
+    }
+}
+
+fn appended_data(bytes: &[u8]) -> Appended<'_> {
+    let tag = bytes.iter().position(|&b| b == b'>').unwrap_or(bytes.len());
+    let (tag, rest) = bytes.split_at(tag);
+    let base64 = find(tag, b"base64").is_some();
+    let start = rest.iter().position(|&b| b == b'_').map_or(rest.len(), |i| i + 1);
+    let data = &rest[start..];
+    Appended { base64, data }
+}
+
+fn scalar(name: &str) -> Result<Scalar> {
+    Ok(match name {
+        "Int8" => Scalar::I8,
+        "UInt8" => Scalar::U8,
+        "Int16" => Scalar::I16,
+        "UInt16" => Scalar::U16,
+        "Int32" => Scalar::I32,
+        "UInt32" => Scalar::U32,
+        "Int64" => Scalar::I64,
+        "UInt64" => Scalar::U64,
+        "Float32" => Scalar::F32,
+        "Float64" => Scalar::F64,
+        _ => return Err(bad(&format!("unknown type {name:?}"))),
+    })
+}
+
+fn ascii(text: &[u8]) -> Result<Vec<f64>> {
+    let mut scanner = Scanner::new(text);
+    let mut numbers = Vec::with_capacity(scanner.capacity(usize::MAX, 4));
+    while scanner.peek().is_some() {
+        numbers.push(scanner.float("a number")?);
+    }
+    Ok(numbers)
+}
+
+fn bad(message: &str) -> Error {
+    Error::new(ErrorKind::Parse, message)
+}
+
+/// Encoded data, decoded as far as asked for.
+struct Source<'a> {
+    base64: bool,
+    data: &'a [u8],
+    at: usize,
+    /// Decoded bytes not yet taken.
+    spare: Vec<u8>,
+}
+
+impl<'a> Source<'a> {
+    fn base64(data: &'a [u8]) -> Self {
+        Self { base64: true, data, at: 0, spare: Vec::new() }
+    }
+
+    fn take(&mut self, count: usize) -> Result<Vec<u8>> {
+        let short = || bad("the data end early").remedy("the file is cut short: export it again");
+        let left = self.data.len() - self.at + self.spare.len();
+        if count > left {
+            return Err(short());
+        }
+        if !self.base64 {
+            let taken = self.data[self.at..self.at + count].to_vec();
+            self.at += count;
+            return Ok(taken);
+        }
+        let mut taken = std::mem::take(&mut self.spare);
+        taken.reserve(count.saturating_sub(taken.len()) + 3);
+        while taken.len() < count {
+            self.quantum(&mut taken)?.ok_or_else(short)?;
+        }
+        self.spare = taken.split_off(count);
+        Ok(taken)
+    }
+
+    /// Decodes four characters. Padding ends a part of the data, after which another may begin.
+    fn quantum(&mut self, out: &mut Vec<u8>) -> Result<Option<()>> {
+        let (mut bits, mut digits, mut characters) = (0, 0, 0);
+        while characters < 4 {
+            let Some(&byte) = self.data.get(self.at) else {
+                return Ok(None);
+            };
+            self.at += 1;
+            if byte.is_ascii_whitespace() {
+                continue;
+            }
+            characters += 1;
+            bits <<= 6;
+            if byte != b'=' {
+                bits |= sextet(byte).ok_or_else(|| bad("the data are not base64"))?;
+                digits += 1;
+            }
+        }
+        let bytes = [(bits >> 16) as u8, (bits >> 8) as u8, bits as u8];
+        out.extend_from_slice(&bytes[..(digits * 6 / 8)]);
+        Ok(Some(()))
+    }
+}
+
+const ALPHABET: &[u8; 64] = b"ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
+
+fn sextet(byte: u8) -> Option<u32> {
+    Some(u32::from(match byte {
+        b'A'..=b'Z' => byte - b'A',
+        b'a'..=b'z' => byte - b'a' + 26,
+        b'0'..=b'9' => byte - b'0' + 52,
+        b'+' => 62,
+        b'/' => 63,
+        _ => return None,
+    }))
+}
+
+/// The data as base64 with padding.
+pub(super) fn base64(bytes: &[u8]) -> String {
+    let mut text = String::with_capacity(bytes.len().div_ceil(3) * 4);
+    for chunk in bytes.chunks(3) {
+        let byte = |i: usize| u32::from(chunk.get(i).copied().unwrap_or(0));
+        let bits = byte(0) << 16 | byte(1) << 8 | byte(2);
+        for i in 0..4 {
+            let digit = ALPHABET[(bits >> (18 - 6 * i)) as usize & 63];
+            text.push(if i <= chunk.len() { char::from(digit) } else { '=' });
+        }
+    }
+    text
+}
