@@ -26,12 +26,28 @@ pub struct Round {
 
 /// Where Algorithm 1 ended.
 pub struct Outcome {
-    /// A valid integer placement.
+    /// A valid placement, integer after the first round.
     pub placement: Placement,
     /// The alignments found.
     pub classes: Classes,
     /// What happened on the way.
     pub rounds: Vec<Round>,
+}
+
+impl Outcome {
+    /// The finalisation of section 6: as near to `targets` as the alignments found allow, with λ = 1.
+    pub fn settle(
+        &self,
+        structure: &Structure,
+        targets: &[f64],
+        solver: &dyn Solver,
+        context: &Context,
+    ) -> Result<Placement> {
+        let differences = structural(&Arrangement::new(structure, &self.placement));
+        let demand =
+            Demand { targets, classes: &self.classes, pairs: &[], halvings: 0, differences, planes: Vec::new() };
+        relax(structure, &self.placement, demand, solver, context)
+    }
 }
 
 /// How Algorithm 1 runs.
@@ -40,12 +56,13 @@ pub struct Settings<'a> {
     pub lambda_min: f64,
     /// The solver of the integer problems.
     pub solver: &'a dyn Solver,
-    /// Whether the solver takes separation planes as printed in Eq. 4; else their dominant axis is used.
+    /// Whether every pair gets the separation plane of Eq. 4, which the solver must then accept; else a pair is
+    /// kept apart only if its corners would meet, along the axis where they are furthest apart.
     pub oblique_planes: bool,
 }
 
 /// Aligns the corners of a valid placement, given in lattice steps.
-pub fn align(structure: &Structure, input: &[f64], settings: &Settings, context: &Context) -> Result<Outcome> {
+pub fn run(structure: &Structure, input: &[f64], settings: &Settings, context: &Context) -> Result<Outcome> {
     let mut state = State {
         structure,
         input,

@@ -1,6 +1,9 @@
-//! Meshes of triangles, quadrilaterals, tetrahedra or hexahedra, and their boundary.
+//! Meshes of triangles, quadrilaterals, tetrahedra or hexahedra, their files, and their boundary.
+//!
+//! Reading is safe on any input: a malformed file gives an [`Error`](crate::Error) that says where it is wrong,
+//! and never a panic, an endless loop, or memory out of proportion to the size of the file.
 
-pub mod io;
+mod io;
 mod simplices;
 
 pub use io::{

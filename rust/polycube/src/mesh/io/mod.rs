@@ -79,7 +79,7 @@ pub fn write(path: &Path, mesh: &Mesh, fields: &[CellField]) -> Result<()> {
     write_atomically(path, &bytes)
 }
 
-/// The bytes of the file that [`write`] would write. The same mesh always gives the same bytes.
+/// The bytes of the file that [`write()`] would write. The same mesh always gives the same bytes.
 ///
 /// Coordinates read back as the very same numbers, except from STL, which holds single precision only.
 ///

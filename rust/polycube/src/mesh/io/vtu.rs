@@ -18,6 +18,7 @@ pub(super) fn read(bytes: &[u8]) -> Result<Mesh> {
     let text = std::str::from_utf8(head).map_err(|_| parse("the XML is not UTF-8"))?;
     let end = if appended.is_empty() { "" } else { "</VTKFile>" };
     let text = format!("{text}{end}");
+    check_tags(&text)?;
     let document = Document::parse(&text).map_err(|error| {
         let line = error.pos().row as usize;
         parse(&format!("the XML is malformed: {error}")).at(Place::Line(line))
@@ -33,6 +34,18 @@ pub(super) fn read(bytes: &[u8]) -> Result<Mesh> {
         add_piece(&piece, &mut arrays, &mut soup)?;
     }
     soup.finish()
+}
+
+/// Refuses XML that no program writes for a mesh: attributes and namespaces by the thousand would take the
+/// parser time and memory out of proportion to the size of the file.
+fn check_tags(text: &str) -> Result<()> {
+    let tags = text.split('<').skip(1).filter(|tag| tag.starts_with(|c: char| c.is_alphabetic()));
+    let longest = tags.map(|tag| tag.find('>').unwrap_or(tag.len())).max();
+    if longest.unwrap_or(0) > 4096 || text.matches("xmlns").count() > 8 {
+        let message = "a tag with too many attributes, or too many namespaces";
+        return Err(Error::new(ErrorKind::Parse, message).remedy("export the mesh again"));
+    }
+    Ok(())
 }
 
 /// Where `needle` first occurs.

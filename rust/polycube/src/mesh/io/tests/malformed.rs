@@ -169,6 +169,10 @@ fn deep_and_wide_xml_is_survived() {
     assert!(read_bytes(Format::Vtu, deep.as_bytes()).is_err());
     let closed = format!("{deep}{}", "</a>".repeat(200_000));
     assert!(read_bytes(Format::Vtu, closed.as_bytes()).is_err());
+    let many: String = (0..200_000).map(|i| format!(" a{i}=''")).collect();
+    assert!(read_bytes(Format::Vtu, format!("<VTKFile{many}/>").as_bytes()).is_err());
+    let nested: String = (0..50_000).map(|i| format!("<a xmlns:a{i}='u{i}'>")).collect();
+    assert!(read_bytes(Format::Vtu, nested.as_bytes()).is_err());
     let bomb = "<!DOCTYPE x [<!ENTITY a \"aaaa\"><!ENTITY b \"&a;&a;\">]><x>&b;</x>";
     assert!(read_bytes(Format::Vtu, bomb.as_bytes()).is_err());
 }
