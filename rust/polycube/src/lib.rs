@@ -1,6 +1,7 @@
 //! Turn a polycube into the coarsest good block structure there is.
 //!
-//! Data flows one way: [`mesh`] → [`structure`] → [`align`] → [`layout`] → [`map`].
+//! [`simplify`](simplify::simplify) is the way in. Data flows one way:
+//! [`mesh`] → [`structure`] → [`align`] → [`layout`] → [`map`].
 
 pub mod align;
 pub mod context;
@@ -9,7 +10,9 @@ pub mod generate;
 pub mod layout;
 pub mod map;
 pub mod mesh;
+pub mod simplify;
 pub mod structure;
 
 pub use context::Context;
 pub use error::{Error, ErrorKind, Place, Result};
+pub use simplify::{Input, Options, Report, Simplified};

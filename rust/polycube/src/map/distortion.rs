@@ -40,18 +40,19 @@ pub struct Distortion {
     pub inverted: usize,
 }
 
-/// One simplex under the map.
+/// A simplex that counts.
 struct Stretch {
-    simplex: usize,
-    /// Area or volume before, and after over before.
+    /// Area or volume before.
     measure: f64,
+    /// Area or volume after over that before.
     determinant: f64,
+    /// The angle part.
     angle: f64,
 }
 
 /// What the map does to one simplex.
 enum Image {
-    Good(f64, f64, f64),
+    Good(Stretch),
     Degenerate,
     Inverted,
 }
@@ -71,43 +72,27 @@ pub fn distortion(from: &Mesh, to: &Mesh) -> Result<Distortion> {
     }
     check_mesh(from)?;
     check_mesh(to)?;
-    let (images, count): (Vec<Image>, usize) = match from.cells.simplices() {
-        Simplices::Triangles(t) => (images(&t, from, to, triangle), t.len()),
-        Simplices::Tetrahedra(t) => (images(&t, from, to, tetrahedron), t.len()),
+    let images = match from.cells.simplices() {
+        Simplices::Triangles(t) => images(&t, from, to, triangle),
+        Simplices::Tetrahedra(t) => images(&t, from, to, tetrahedron),
     };
-    let number = |wanted: fn(&Image) -> bool| images.iter().filter(|i| wanted(i)).count();
-    let degenerate = number(|i| matches!(i, Image::Degenerate));
-    let inverted = number(|i| matches!(i, Image::Inverted));
-    let good = images.into_iter().enumerate().filter_map(|(simplex, image)| match image {
-        Image::Good(measure, determinant, angle) => Some(Stretch { simplex, measure, determinant, angle }),
-        _ => None,
-    });
-    let per_cell = count / from.cells.len().max(1);
-    let found = Distortion { simplices: count, degenerate, inverted, ..NONE };
-    means(&good.collect::<Vec<_>>(), per_cell, found)
+    summary(&images, from.cells.len())
 }
 
-/// The distortion of nothing.
-const NONE: Distortion = Distortion {
-    angle: 0.0,
-    size: 0.0,
-    worst_angle: 0.0,
-    worst_size: 0.0,
-    worst_cell: 0,
-    simplices: 0,
-    degenerate: 0,
-    inverted: 0,
-};
-
-/// The means and maxima over `good`, entered into `found`.
-fn means(good: &[Stretch], per_cell: usize, mut found: Distortion) -> Result<Distortion> {
-    let before: f64 = good.iter().map(|s| s.measure).sum();
-    let after: f64 = good.iter().map(|s| s.measure * s.determinant).sum();
-    if good.is_empty() {
+/// Means, maxima and counts over the images of all simplices, which come from `cells` cells.
+fn summary(images: &[Image], cells: usize) -> Result<Distortion> {
+    let good = images.iter().enumerate().filter_map(|(i, image)| match image {
+        Image::Good(stretch) => Some((i, stretch)),
+        Image::Degenerate | Image::Inverted => None,
+    });
+    let before: f64 = good.clone().map(|(_, s)| s.measure).sum();
+    let after: f64 = good.clone().map(|(_, s)| s.measure * s.determinant).sum();
+    let mut found = counted(images);
+    if found.degenerate + found.inverted == images.len() {
         let message = "every cell is flat or inverted: there is no distortion to measure";
         return Err(Error::new(ErrorKind::Mesh, message));
     }
-    for s in good {
+    for (i, s) in good {
         let determinant = s.determinant * before / after;
         let size = 0.5 * (determinant + 1.0 / determinant);
         found.angle += s.angle * s.measure / before;
@@ -115,10 +100,25 @@ fn means(good: &[Stretch], per_cell: usize, mut found: Distortion) -> Result<Dis
         found.worst_size = found.worst_size.max(size);
         if s.angle > found.worst_angle {
             found.worst_angle = s.angle;
-            found.worst_cell = (s.simplex / per_cell) as u32;
+            found.worst_cell = (i * cells / images.len()) as u32;
         }
     }
     Ok(found)
+}
+
+/// The counts, with nothing measured yet.
+fn counted(images: &[Image]) -> Distortion {
+    let number = |wanted: fn(&Image) -> bool| images.iter().filter(|i| wanted(i)).count();
+    Distortion {
+        angle: 0.0,
+        size: 0.0,
+        worst_angle: 0.0,
+        worst_size: 0.0,
+        worst_cell: 0,
+        simplices: images.len(),
+        degenerate: number(|i| matches!(i, Image::Degenerate)),
+        inverted: number(|i| matches!(i, Image::Inverted)),
+    }
 }
 
 fn images<const K: usize>(
@@ -143,7 +143,7 @@ fn triangle(from: [Point; 3], to: [Point; 3]) -> Image {
         return Image::Degenerate;
     };
     let trace = t[0] * f[2] - 2.0 * t[1] * f[1] + t[2] * f[0];
-    Image::Good(before / 2.0, after / before, trace / (2.0 * before * after))
+    Image::Good(Stretch { measure: before / 2.0, determinant: after / before, angle: trace / (2.0 * before * after) })
 }
 
 fn tetrahedron(from: [Point; 4], to: [Point; 4]) -> Image {
@@ -162,7 +162,7 @@ fn tetrahedron(from: [Point; 4], to: [Point; 4]) -> Image {
     // libm's, because the platform's own differ in the last bit from one system to the next.
     let root = libm::cbrt(determinant);
     let angle = (after * inverse).norm_squared() / (3.0 * root * root);
-    Image::Good(volume.abs() / 6.0, determinant, angle)
+    Image::Good(Stretch { measure: volume.abs() / 6.0, determinant, angle })
 }
 
 /// Whether three edges from one vertex span a volume worth the name; false for a NaN.
@@ -243,7 +243,7 @@ mod tests {
             let s = j.singular_values();
             let from = [[0.1, 0.2], [1.3, 0.1], [0.4, 0.9]].map(nalgebra::Vector2::from);
             let lift = |p: nalgebra::Vector2<f64>| Point::new(p.x, p.y, 1.0);
-            let Image::Good(_, d, angle) = triangle(from.map(lift), from.map(|p| lift(j * p))) else {
+            let Image::Good(Stretch { determinant: d, angle, .. }) = triangle(from.map(lift), from.map(|p| lift(j * p))) else {
                 panic!("degenerate")
             };
             let expected = (s[0] / s[1] + s[1] / s[0]) / 2.0;

@@ -5,9 +5,11 @@ use super::sparse::{Rows, Values, add_scaled};
 use crate::context::Context;
 use crate::error::Result;
 
-/// The part of the dropped fill that goes to the diagonal: 0 is ILU(0), 1 is MILU(0), which halves
-/// the iterations on Laplacians but may run into a zero pivot.
-const RELAXATION: f64 = 0.95;
+/// The part of the dropped fill that goes to the diagonal: 0 is ILU(0), 1 is MILU(0).
+///
+/// Measured iterations on a surface of 180,000 vertices: 286 with 0, 163 with 0.95, 115 with 0.99,
+/// 89 with 0.998, 122 with 1, whose pivots come close to zero.
+const RELAXATION: f64 = 0.99;
 
 /// A pivot below this part of its diagonal entry is replaced by that entry.
 const SMALLEST_PIVOT: f64 = 1e-3;

@@ -3,8 +3,6 @@
 //! [`morph`] solves the Laplace problem of the finalisation (paper, section 6); [`flipped`] lists
 //! the elements it turned over, [`distortion`] says how far one mesh is from a similarity of another.
 
-#[cfg(test)]
-mod bunny;
 mod check;
 mod cotangent;
 mod distortion;
@@ -14,6 +12,8 @@ mod ilu;
 mod krylov;
 mod mean_value;
 mod morph;
+#[cfg(test)]
+mod on_real_data;
 mod sparse;
 #[cfg(test)]
 pub(crate) mod testing;

@@ -109,14 +109,16 @@ fn outer<const C: usize, const K: usize, const F: usize>(
         return Err(Error::new(ErrorKind::Mesh, "the mesh has too many cells"));
     }
     let face = |i: u32| table[i as usize % F].map(|k| cells[i as usize / F][k]);
-    let mut keys: Vec<([u32; K], u32)> = (0..(cells.len() * F) as u32).map(|i| (sorted(face(i)), i)).collect();
+    let mut keys: Vec<(u128, u32)> = (0..(cells.len() * F) as u32).map(|i| (key(face(i)), i)).collect();
     keys.sort_unstable();
     let mut single = Vec::new();
     for group in keys.chunk_by(|a, b| a.0 == b.0) {
         match group {
             [one] => single.push(one.1),
             [_, _] => {}
-            [_, _, third, ..] => return Err(crowded(&third.0, third.1 / F as u32, group.len())),
+            [_, _, third, ..] => {
+                return Err(crowded(&face(third.1), third.1 / F as u32, group.len()));
+            }
             [] => {}
         }
     }
@@ -124,9 +126,10 @@ fn outer<const C: usize, const K: usize, const F: usize>(
     Ok(single.into_iter().map(|i| make(face(i))).collect())
 }
 
-fn sorted<const K: usize>(mut face: [u32; K]) -> [u32; K] {
+/// A number that faces over the same three or four vertices share, and no others.
+fn key<const K: usize>(mut face: [u32; K]) -> u128 {
     face.sort_unstable();
-    face
+    face.iter().fold(0, |key, &v| key << 32 | u128::from(v))
 }
 
 fn crowded(face: &[u32], cell: u32, count: usize) -> Error {
@@ -209,9 +212,9 @@ mod tests {
             }
             let cells = Cells::Tetrahedra(split);
             let mut split: Vec<_> = cells.boundary().unwrap().iter()
-                .map(|f| sorted([f.vertices()[0], f.vertices()[1], f.vertices()[2]])).collect();
+                .map(|f| key([f.vertices()[0], f.vertices()[1], f.vertices()[2]])).collect();
             let mut quads: Vec<_> = mesh.cells.boundary().unwrap().iter().flat_map(|f| match f {
-                Face::Quad(q) => split_quad(*q).map(sorted),
+                Face::Quad(q) => split_quad(*q).map(key),
                 Face::Triangle(_) => panic!("not a quadrilateral"),
             }).collect();
             split.sort_unstable();

@@ -1,0 +1,229 @@
+//! The whole method: read the structure, align it, morph the mesh onto the result, and say what happened.
+
+use crate::align::{self, Alignment, Round, SolverKind, Strategy};
+use crate::context::Context;
+use crate::error::{Error, ErrorKind, Result};
+use crate::layout::Counts;
+use crate::map::{Distortion, Flipped, distortion, flipped, morph};
+use crate::mesh::{Mesh, Point};
+use crate::structure::{Deviation, Polycube, Tolerance, Violation};
+use std::time::Instant;
+
+/// What is simplified.
+#[derive(Clone, Copy, Debug)]
+pub struct Input<'a> {
+    /// The polycube.
+    pub polycube: &'a Mesh,
+    /// The shape it was deformed from, with the same cells; used to measure the distortion of the map.
+    pub shape: Option<&'a Mesh>,
+    /// One label per boundary face of the polycube (0 to 5, −1 for "by the normal").
+    pub labels: Option<&'a [i8]>,
+}
+
+/// How it is simplified.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Options {
+    /// How the levels find their places.
+    pub strategy: Strategy,
+    /// Lattice steps per unit of the polycube. By default 1 if all levels are integers, else such that a lattice step
+    /// is the mean length of the polycube's mesh edges.
+    pub scale: Option<f64>,
+    /// Algorithm 1 stops before λ falls below this: 0 for the coarsest result.
+    pub lambda_min: f64,
+    /// Who solves the integer problems.
+    pub solver: SolverKind,
+    /// How far the input may be from a polycube.
+    pub tolerance: Tolerance,
+}
+
+/// A simplified polycube.
+#[derive(Clone, Debug)]
+pub struct Simplified {
+    /// The polycube as it came, with its structure.
+    pub input: Polycube,
+    /// The simplified polycube in lattice units, with the connectivity of the input; nothing when it is not valid.
+    pub polycube: Option<Mesh>,
+    /// The lattice coordinate of every level.
+    pub levels: Vec<i64>,
+    /// What was done.
+    pub report: Report,
+}
+
+/// What was done, for people and programs.
+#[derive(Clone, Debug, PartialEq, serde::Serialize)]
+pub struct Report {
+    /// How the levels found their places.
+    pub strategy: Strategy,
+    /// Lattice steps per unit of the input.
+    pub scale: f64,
+    /// Whether the result is a valid polycube. Only `naive` can give one that is not.
+    pub valid: bool,
+    /// Counts of the input.
+    pub before: Counts,
+    /// Counts of the result, if it is valid.
+    pub after: Option<Counts>,
+    /// The rounds of Algorithm 1.
+    pub rounds: Vec<Round>,
+    /// Time spent, in seconds.
+    pub seconds: Seconds,
+    /// The farthest that a corner moved, in units of the input polycube.
+    pub max_displacement: f64,
+    /// Elements of the morphed mesh that are turned over or flat: cells of a volume and boundary faces.
+    pub flipped_elements: usize,
+    /// Which they are.
+    pub flipped: Flipped,
+    /// How far the input was from an exact polycube.
+    pub deviation: Deviation,
+    /// Distortion of the map from the shape to the polycube, before and after. Without a shape the polycube as it came
+    /// stands for it.
+    pub distortion: Option<[Distortion; 2]>,
+    /// What was not possible or not as asked, in plain words.
+    pub notes: Vec<String>,
+}
+
+/// Time spent in each stage, in seconds.
+#[derive(Clone, Copy, Debug, Default, PartialEq, serde::Serialize)]
+pub struct Seconds {
+    /// Reading the files.
+    pub read: f64,
+    /// Finding and checking the structure.
+    pub structure: f64,
+    /// Pairing, aligning, counting.
+    pub align: f64,
+    /// Morphing the mesh and judging it.
+    pub morph: f64,
+    /// Writing the files.
+    pub write: f64,
+    /// All of it.
+    pub total: f64,
+}
+
+/// Reads the structure of a valid polycube and checks that shape and labels fit it.
+///
+/// # Errors
+/// The first violation, with the number of others, as [`ErrorKind::Mesh`] or [`ErrorKind::Polycube`];
+/// [`ErrorKind::Mismatch`] if shape or labels do not fit.
+pub fn read_structure(input: &Input, tolerance: &Tolerance) -> Result<Polycube> {
+    check_fit(input)?;
+    let polycube = Polycube::new(input.polycube, input.labels, tolerance).map_err(first_of)?;
+    match polycube.overlaps(&input.polycube.points) {
+        overlaps if overlaps.is_empty() => Ok(polycube),
+        overlaps => Err(first_of(overlaps)),
+    }
+}
+
+/// Simplifies a polycube (paper, Algorithm 1): finds its structure, aligns its corners on the integer
+/// lattice, and morphs the mesh onto the result.
+///
+/// # Errors
+/// See [`read_structure`] and [`align::align`]; [`ErrorKind::Cancelled`].
+pub fn simplify(input: &Input, options: &Options, context: &Context) -> Result<Simplified> {
+    let start = Instant::now();
+    context.stage("structure", 0.0, 0.1).tick(0.0)?;
+    let polycube = read_structure(input, &options.tolerance)?;
+    let scale = options.scale.unwrap_or_else(|| default_scale(&polycube, input.polycube));
+    let structured = start.elapsed().as_secs_f64();
+    let settings =
+        align::Options { strategy: options.strategy, scale, lambda_min: options.lambda_min, solver: options.solver };
+    let aligning = context.stage("align", 0.1, 0.5);
+    let alignment = align::align(&polycube.structure, &polycube.placement, &settings, &aligning)?;
+    let aligned = start.elapsed().as_secs_f64();
+    let mut report = report(&polycube, &alignment, options.strategy, scale);
+    let mut result = None;
+    if report.valid {
+        let mesh = fit(&polycube, input.polycube, &alignment.levels, scale, &context.stage("morph", 0.5, 1.0))?;
+        judge(&mut report, input, &polycube, &mesh)?;
+        result = Some(mesh);
+    }
+    let total = start.elapsed().as_secs_f64();
+    let stages =
+        Seconds { structure: structured, align: aligned - structured, morph: total - aligned, ..Seconds::default() };
+    report.seconds = Seconds { total, ..stages };
+    Ok(Simplified { input: polycube, polycube: result, levels: alignment.levels, report })
+}
+
+fn check_fit(input: &Input) -> Result<()> {
+    if let Some(shape) = input.shape
+        && (shape.cells != input.polycube.cells || shape.points.len() != input.polycube.points.len())
+    {
+        return Err(Error::new(ErrorKind::Mismatch, "shape and polycube do not have the same vertices and cells")
+            .remedy("give the pair that one deformation connects, with the same numbering"));
+    }
+    Ok(())
+}
+
+fn first_of(violations: Vec<Violation>) -> Error {
+    let others = violations.len().saturating_sub(1);
+    let first = violations.into_iter().next().unwrap_or(Violation::Empty);
+    let mut error = Error::from(first);
+    if others > 0 {
+        error.message = format!("{}; {others} more like it, see `polycube validate`", error.message);
+    }
+    error
+}
+
+/// 1 for a polycube that lies on the lattice already, else one step per mean mesh edge.
+fn default_scale(polycube: &Polycube, mesh: &Mesh) -> f64 {
+    if polycube.placement.iter().all(|x| x.fract() == 0.0) {
+        return 1.0;
+    }
+    let surface = &polycube.surface;
+    let at = |v: u32| mesh.points[v as usize];
+    let lengths = surface.half_edges().map(|h| (at(surface.end(h)) - at(surface.start(h))).norm());
+    let (sum, count) = lengths.fold((0.0, 0.0), |(s, n), l| (s + l, n + 1.0));
+    count / sum
+}
+
+/// The mesh, scaled to the lattice and morphed onto `levels`.
+fn fit(polycube: &Polycube, mesh: &Mesh, levels: &[i64], scale: f64, context: &Context) -> Result<Mesh> {
+    let points: Vec<Point> = mesh.points.iter().map(|p| p * scale).collect();
+    let mut fitted = Mesh { points, cells: mesh.cells.clone() };
+    let placement: Vec<f64> = levels.iter().map(|&x| x as f64).collect();
+    fitted.points = morph(&fitted, &polycube.prescribed(&placement), context)?;
+    Ok(fitted)
+}
+
+fn report(polycube: &Polycube, alignment: &Alignment, strategy: Strategy, scale: f64) -> Report {
+    let notes = match alignment.broken.len() {
+        0 => Vec::new(),
+        n => vec![format!("rounding to the lattice made the surface touch or cross itself in {n} places")],
+    };
+    Report {
+        strategy,
+        scale,
+        valid: alignment.after.is_some(),
+        before: alignment.before,
+        after: alignment.after,
+        rounds: alignment.rounds.clone(),
+        seconds: Seconds::default(),
+        max_displacement: max_displacement(polycube, &alignment.levels, scale),
+        flipped_elements: 0,
+        flipped: Flipped::default(),
+        deviation: polycube.deviation,
+        distortion: None,
+        notes,
+    }
+}
+
+fn max_displacement(polycube: &Polycube, levels: &[i64], scale: f64) -> f64 {
+    let after: Vec<f64> = levels.iter().map(|&x| x as f64 / scale).collect();
+    let moved = |c: u32| {
+        let [from, to] = [&polycube.placement, &after].map(|p| Point::from(polycube.structure.position(c, p)));
+        (to - from).norm()
+    };
+    (0..polycube.structure.corners.len() as u32).map(moved).fold(0.0, f64::max)
+}
+
+/// Counts what the morph turned over and measures the map before and after.
+fn judge(report: &mut Report, input: &Input, polycube: &Polycube, mesh: &Mesh) -> Result<()> {
+    let labels: Vec<i8> = polycube.labels().map(|l| l.index() as i8).collect();
+    report.flipped = flipped(mesh, &labels)?;
+    report.flipped_elements = report.flipped.cells.len() + report.flipped.faces.len();
+    let from = input.shape.unwrap_or(input.polycube);
+    report.distortion = Some([distortion(from, input.polycube)?, distortion(from, mesh)?]);
+    if report.flipped_elements > 0 {
+        let n = report.flipped_elements;
+        report.notes.push(format!("{n} elements of the morphed mesh are turned over or flat"));
+    }
+    Ok(())
+}
