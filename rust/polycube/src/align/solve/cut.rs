@@ -26,9 +26,9 @@ pub(super) struct Network {
 
 impl Network {
     /// Starts again with nodes of the given supplies and no arcs.
-    pub(super) fn reset(&mut self, supply: impl Iterator<Item = i128>) {
+    pub(super) fn reset(&mut self, supply: &[i128]) {
         self.supply.clear();
-        self.supply.extend(supply);
+        self.supply.extend_from_slice(supply);
         self.first.clear();
         self.first.resize(self.supply.len(), NONE);
         self.next.clear();
@@ -44,6 +44,11 @@ impl Network {
             self.head.push(to);
             self.room.push(room);
         }
+    }
+
+    /// What room is left from `b` to `a` in the `n`-th call of [`join`](Self::join).
+    pub(super) fn room_back(&self, n: usize) -> i128 {
+        self.room[2 * n + 1]
     }
 
     /// Sends as much supply to demands as there is room for. O(nodes² · arcs), far less as a rule.
