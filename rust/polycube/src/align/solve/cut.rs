@@ -26,9 +26,9 @@ pub(super) struct Network {
 
 impl Network {
     /// Starts again with nodes of the given supplies and no arcs.
-    pub(super) fn reset(&mut self, supply: impl Iterator<Item = i128>) {
+    pub(super) fn reset(&mut self, supply: &[i128]) {
         self.supply.clear();
-        self.supply.extend(supply);
+        self.supply.extend_from_slice(supply);
         self.first.clear();
         self.first.resize(self.supply.len(), NONE);
         self.next.clear();
@@ -44,6 +44,11 @@ impl Network {
             self.head.push(to);
             self.room.push(room);
         }
+    }
+
+    /// What room is left from `b` to `a` in the `n`-th call of [`join`](Self::join).
+    pub(super) fn room_back(&self, n: usize) -> i128 {
+        self.room[2 * n + 1]
     }
 
     /// Sends as much supply to demands as there is room for. O(nodes² · arcs), far less as a rule.
@@ -130,7 +135,10 @@ impl Network {
     /// Sends what fits along the path to the demand of `sink`; returns where the path is still open.
     fn push(&mut self, source: usize, sink: usize) -> usize {
         let ends = self.supply[source].min(-self.supply[sink]);
-        let amount = self.path.iter().fold(ends, |m, &e| m.min(self.room[e as usize]));
+        let amount = self
+            .path
+            .iter()
+            .fold(ends, |m, &e| m.min(self.room[e as usize]));
         self.supply[source] -= amount;
         self.supply[sink] += amount;
         for &e in &self.path {
@@ -139,6 +147,8 @@ impl Network {
         }
         let full = self.path.iter().position(|&e| self.room[e as usize] == 0);
         self.path.truncate(full.unwrap_or(self.path.len()));
-        self.path.last().map_or(source, |&e| self.head[e as usize] as usize)
+        self.path
+            .last()
+            .map_or(source, |&e| self.head[e as usize] as usize)
     }
 }

@@ -10,8 +10,8 @@
 //! ```
 //!
 //! and a difference with slack below `s` forbids that only one of its two variables moves. Steps are powers of two,
-//! long ones first (Murota 2003, section 10.3; Kolmogorov & Shioura, *Discrete Optimization* 6, 2009), so the number
-//! of cuts grows with the logarithm of the distance.
+//! long ones first (Murota 2003, section 10.3), so the number of cuts grows with the logarithm of the distance, and each
+//! cut continues the flow of the one before (Kolmogorov & Shioura, *Discrete Optimization* 6, 2009).
 //!
 //! The last phase moves down by 1 for as long as that does not cost anything, taking the largest set each time.
 //! It ends at the lowest of all optimal solutions.
@@ -31,7 +31,12 @@ use crate::error::{Error, ErrorKind, Result};
 pub struct ExactSolver;
 
 impl Solver for ExactSolver {
-    fn solve(&self, problem: &Problem, start: Option<&[i64]>, context: &Context) -> Result<Solution> {
+    fn solve(
+        &self,
+        problem: &Problem,
+        start: Option<&[i64]>,
+        context: &Context,
+    ) -> Result<Solution> {
         if !problem.linear.is_empty() {
             let message = "this solver knows differences of two levels only";
             return Err(Error::new(ErrorKind::Unsupported, message).remedy("use LinearSolver"));
@@ -68,7 +73,11 @@ pub(super) fn descend(problem: &Problem, levels: &mut [i64], context: &Context) 
 /// Puts a part without pairs on its rounded targets if they keep their distances; whether that solved it.
 fn settle(problem: &Problem, part: &Part, levels: &mut [i64]) -> bool {
     let near = |i: u32| problem.rounded_target(part.variables[i as usize]);
-    let solved = part.pairs.is_empty() && part.differences.iter().all(|d| near(d.high) - near(d.low) >= d.gap);
+    let solved = part.pairs.is_empty()
+        && part
+            .differences
+            .iter()
+            .all(|d| near(d.high) - near(d.low) >= d.gap);
     if solved {
         for &v in &part.variables {
             levels[v] = problem.rounded_target(v);
@@ -83,7 +92,18 @@ enum Way {
     Down,
 }
 
+impl Way {
+    /// Moving down is moving up with every axis, and so every arc, reversed.
+    fn order(self, (a, b): (u32, u32)) -> (u32, u32) {
+        if self == Self::Up { (a, b) } else { (b, a) }
+    }
+}
+
 /// The search within one part. Costs are in units of `2^−(halvings + FRACTION_BITS)`.
+///
+/// Flows survive from cut to cut: with `d = x_a − x_b` the pull of a pair may be anything from `weight (2d − s)` to
+/// `weight (2d + s)`, its derivatives half a step to either side. A pair cut by a move has its pull at the end of that
+/// range which is also an end of the range after the move, so pulls stay valid and the next cut starts almost solved.
 struct Descent<'a> {
     part: &'a Part,
     context: &'a Context,
@@ -93,17 +113,30 @@ struct Descent<'a> {
     /// What a pair of weight 1 costs at distance 1.
     unit: i128,
     x: Vec<i64>,
-    slope: Vec<i128>,
+    /// How strongly each pair draws `a` down and `b` up.
+    pull: Vec<i128>,
+    /// How strongly each difference pushes `low` down and `high` up; at least 0, and 0 where there is slack.
+    push: Vec<i128>,
+    supply: Vec<i128>,
     steps: u32,
 }
 
 impl<'a> Descent<'a> {
-    fn new(problem: &Problem, part: &'a Part, x: Vec<i64>, network: &'a mut Network, context: &'a Context) -> Self {
-        let term = |&v: &usize| (i128::from(problem.shape[v].weight), i128::from(problem.fixed_target(v)));
+    fn new(
+        problem: &Problem,
+        part: &'a Part,
+        x: Vec<i64>,
+        network: &'a mut Network,
+        context: &'a Context,
+    ) -> Self {
+        let fixed = |v: usize| i128::from(problem.fixed_target(v));
+        let term = |&v: &usize| (i128::from(problem.shape[v].weight), fixed(v));
         Self {
             shape: part.variables.iter().map(term).collect(),
             unit: 1 << (problem.halvings + Problem::FRACTION_BITS),
-            slope: vec![0; x.len()],
+            pull: vec![0; part.pairs.len()],
+            push: vec![0; part.differences.len()],
+            supply: vec![0; x.len()],
             steps: 0,
             part,
             context,
@@ -112,9 +145,16 @@ impl<'a> Descent<'a> {
         }
     }
 
-    fn run(&mut self, reach: (i64, i64)) -> Result<()> {
-        self.differentiate();
-        let mut stride = self.longest(reach);
+    /// Strides double while they improve, so that a start near the optimum costs few cuts, and are halved then.
+    fn run(&mut self, (low, high): (i64, i64)) -> Result<()> {
+        let far = self.x.iter().map(|&x| (x - low).max(high - x)).max();
+        let far = far.unwrap_or(1);
+        let mut stride = 1;
+        while stride < far
+            && self.shift(Way::Up, stride, false)? | self.shift(Way::Down, stride, false)?
+        {
+            stride *= 2;
+        }
         while stride > 1 {
             self.phase(stride)?;
             stride /= 2;
@@ -123,7 +163,10 @@ impl<'a> Descent<'a> {
         while self.shift(Way::Down, 1, true)? {}
         // Free moves down cannot open a way up; this cut proves it.
         if self.shift(Way::Up, 1, false)? {
-            return Err(Error::new(ErrorKind::Internal, "the descent did not end at an optimum"));
+            return Err(Error::new(
+                ErrorKind::Internal,
+                "the descent did not end at an optimum",
+            ));
         }
         Ok(())
     }
@@ -139,57 +182,108 @@ impl<'a> Descent<'a> {
         }
     }
 
-    /// The longest power of two that may still improve: no further than optimal levels lie apart, and short enough
-    /// for the slope of some variable to outweigh its own shape term.
-    fn longest(&self, (low, high): (i64, i64)) -> i64 {
-        let far = self.x.iter().map(|&x| (x - low).max(high - x)).max().unwrap_or(1);
-        let steep = |(&(weight, _), slope): (&(i128, i128), &i128)| slope.abs() / (weight << Problem::FRACTION_BITS);
-        let steep = self.shape.iter().zip(&self.slope).map(steep).max().unwrap_or(1);
-        let bound = i128::from(far).min(steep).max(1);
-        1 << bound.ilog2()
-    }
-
     /// Moves the best set by `stride`, if that improves the cost, or leaves it as it is and `free` moves are allowed.
     fn shift(&mut self, way: Way, stride: i64, free: bool) -> Result<bool> {
-        let supply = self.supply(way, stride);
-        let hopeless = |s: &i128| *s < 0 || (*s == 0 && !free);
-        if supply.iter().all(hopeless) {
+        self.clamp(stride);
+        self.weigh(way, stride);
+        if self.supply.iter().all(|&s| s < 0 || (s == 0 && !free)) {
             return Ok(false);
         }
         self.context.tick(0.0)?;
         self.steps += 1;
-        self.network.reset(supply.into_iter());
-        self.join_pairs(stride);
-        self.join_differences(way, stride);
+        self.network.reset(&self.supply);
+        self.join(way, stride);
         self.network.saturate();
+        self.remember(stride);
         if !free && !self.network.has_supply() {
             return Ok(false);
         }
         Ok(self.displace(way, stride))
     }
 
-    /// What each variable gains by moving alone, pairs' convexity aside.
-    fn supply(&self, way: Way, stride: i64) -> Vec<i128> {
-        let gain = |(&(weight, _), &slope): (&(i128, i128), &i128)| {
-            let own = (weight << Problem::FRACTION_BITS) * i128::from(stride);
-            if way == Way::Up { -slope - own } else { slope - own }
-        };
-        self.shape.iter().zip(&self.slope).map(gain).collect()
+    /// The least and the greatest pull of pair `i` for a step of `stride`.
+    fn range(&self, i: usize, stride: i64) -> (i128, i128) {
+        let p = &self.part.pairs[i];
+        let twice = 2 * (self.x[p.a as usize] - self.x[p.b as usize]);
+        let weight = self.unit * i128::from(p.weight);
+        (
+            weight * i128::from(twice - stride),
+            weight * i128::from(twice + stride),
+        )
     }
 
-    fn join_pairs(&mut self, stride: i64) {
-        for p in &self.part.pairs {
-            let room = self.unit * i128::from(p.weight) * i128::from(stride);
-            self.network.join(p.a, p.b, room, room);
+    fn is_tight(&self, i: usize, stride: i64) -> bool {
+        let d = &self.part.differences[i];
+        self.x[d.high as usize] - self.x[d.low as usize] - d.gap < stride
+    }
+
+    /// Brings pulls and pushes into their ranges.
+    fn clamp(&mut self, stride: i64) {
+        for i in 0..self.pull.len() {
+            let (least, most) = self.range(i, stride);
+            self.pull[i] = self.pull[i].clamp(least, most);
+        }
+        for i in 0..self.push.len() {
+            if !self.is_tight(i, stride) {
+                self.push[i] = 0;
+            }
         }
     }
 
-    fn join_differences(&mut self, way: Way, stride: i64) {
-        for d in &self.part.differences {
-            if self.x[d.high as usize] - self.x[d.low as usize] - d.gap < stride {
+    /// What each variable gains by moving, given the pulls and pushes.
+    fn weigh(&mut self, way: Way, stride: i64) {
+        for (i, &(weight, target)) in self.shape.iter().enumerate() {
+            let apart = (i128::from(self.x[i]) << Problem::FRACTION_BITS) - target;
+            let own = i128::from(stride) << Problem::FRACTION_BITS;
+            self.supply[i] = weight
+                * (if way == Way::Up {
+                    -2 * apart
+                } else {
+                    2 * apart
+                } - own);
+        }
+        let pairs = self.part.pairs.iter().map(|p| (p.a, p.b)).zip(&self.pull);
+        let differences = self
+            .part
+            .differences
+            .iter()
+            .map(|d| (d.low, d.high))
+            .zip(&self.push);
+        for (ends, &force) in pairs.chain(differences) {
+            let (from, to) = way.order(ends);
+            self.supply[from as usize] -= force;
+            self.supply[to as usize] += force;
+        }
+    }
+
+    /// Arcs in the order of [`remember`](Self::remember): pairs, then tight differences.
+    fn join(&mut self, way: Way, stride: i64) {
+        for (i, p) in self.part.pairs.iter().enumerate() {
+            let (least, most) = self.range(i, stride);
+            let (from, to) = way.order((p.a, p.b));
+            self.network
+                .join(from, to, most - self.pull[i], self.pull[i] - least);
+        }
+        for (i, d) in self.part.differences.iter().enumerate() {
+            if self.is_tight(i, stride) {
                 // Whoever moves towards the other takes it along.
-                let (from, to) = if way == Way::Up { (d.low, d.high) } else { (d.high, d.low) };
-                self.network.join(from, to, UNLIMITED, 0);
+                let (from, to) = way.order((d.low, d.high));
+                self.network.join(from, to, UNLIMITED, self.push[i]);
+            }
+        }
+    }
+
+    /// Keeps the flows as pulls and pushes.
+    fn remember(&mut self, stride: i64) {
+        let mut arc = 0;
+        for i in 0..self.pull.len() {
+            self.pull[i] = self.range(i, stride).0 + self.network.room_back(arc);
+            arc += 1;
+        }
+        for i in 0..self.push.len() {
+            if self.is_tight(i, stride) {
+                self.push[i] = self.network.room_back(arc);
+                arc += 1;
             }
         }
     }
@@ -204,23 +298,6 @@ impl<'a> Descent<'a> {
                 moved = true;
             }
         }
-        if moved {
-            self.differentiate();
-        }
         moved
-    }
-
-    /// Recomputes the slope of the cost along every variable.
-    fn differentiate(&mut self) {
-        for (i, &(weight, target)) in self.shape.iter().enumerate() {
-            let apart = (i128::from(self.x[i]) << Problem::FRACTION_BITS) - target;
-            self.slope[i] = 2 * weight * apart;
-        }
-        for p in &self.part.pairs {
-            let apart = i128::from(self.x[p.a as usize]) - i128::from(self.x[p.b as usize]);
-            let pull = 2 * self.unit * i128::from(p.weight) * apart;
-            self.slope[p.a as usize] += pull;
-            self.slope[p.b as usize] -= pull;
-        }
     }
 }
