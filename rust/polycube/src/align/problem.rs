@@ -146,8 +146,7 @@ impl Problem {
         });
         let pairs = pairs.fold(0, i128::saturating_add);
         let shape = self.shape.iter().enumerate().map(|(i, s)| {
-            let apart =
-                (i128::from(levels[i]) << Self::FRACTION_BITS) - i128::from(self.fixed_target(i));
+            let apart = (i128::from(levels[i]) << Self::FRACTION_BITS) - i128::from(self.fixed_target(i));
             square(apart, s.weight)
         });
         let scale = 1 << (self.halvings + 2 * Self::FRACTION_BITS);
@@ -216,9 +215,7 @@ impl Problem {
     /// As [`validate`](Self::validate), and [`ErrorKind::Option`] if `near` is of another length or out of range.
     pub fn feasible_near(&self, near: &[i64]) -> Result<Vec<i64>> {
         self.check_numbers()?;
-        if let Err(violation @ (Violation::Length(_) | Violation::Range(_))) =
-            self.is_feasible(near)
-        {
+        if let Err(violation @ (Violation::Length(_) | Violation::Range(_))) = self.is_feasible(near) {
             return Err(out_of_range(format!("starting point: {violation}")));
         }
         potential::between(&self.differences, near)
@@ -260,11 +257,7 @@ impl Problem {
         let pairs = self.pairs.iter().flat_map(|p| [p.a, p.b]);
         let differences = self.differences.iter().flat_map(|d| [d.low, d.high]);
         let linear = self.linear.iter().flat_map(|l| l.terms.iter().map(|t| t.0));
-        match pairs
-            .chain(differences)
-            .chain(linear)
-            .find(|&i| i as usize >= self.len())
-        {
+        match pairs.chain(differences).chain(linear).find(|&i| i as usize >= self.len()) {
             Some(i) => Err(out_of_range(format!("there is no variable {i}"))),
             None => Ok(()),
         }
@@ -274,16 +267,9 @@ impl Problem {
         let limit = Self::MAX_LEVEL as f64;
         let bad = |s: &ShapeTerm| s.weight == 0 || !(-limit..=limit).contains(&s.target);
         if let Some(i) = self.shape.iter().position(bad) {
-            return Err(out_of_range(format!(
-                "variable {i} has {:?}",
-                self.shape[i]
-            )));
+            return Err(out_of_range(format!("variable {i} has {:?}", self.shape[i])));
         }
-        let weights = self
-            .shape
-            .iter()
-            .map(|s| s.weight)
-            .chain(self.pairs.iter().map(|p| p.weight));
+        let weights = self.shape.iter().map(|s| s.weight).chain(self.pairs.iter().map(|p| p.weight));
         let total: u64 = weights.map(u64::from).sum();
         if total > Self::MAX_WEIGHT {
             return Err(out_of_range(format!("the weights add up to {total}")));
@@ -294,10 +280,7 @@ impl Problem {
     fn check_constraints(&self) -> Result<()> {
         let far = |d: &Difference| d.gap.unsigned_abs() > 2 * Self::MAX_LEVEL.unsigned_abs();
         if let Some(i) = self.differences.iter().position(far) {
-            return Err(out_of_range(format!(
-                "difference {i} has {:?}",
-                self.differences[i]
-            )));
+            return Err(out_of_range(format!("difference {i} has {:?}", self.differences[i])));
         }
         let finite = |l: &Linear| l.at_least.is_finite() && l.terms.iter().all(|t| t.1.is_finite());
         match self.linear.iter().position(|l| !finite(l)) {
@@ -309,11 +292,7 @@ impl Problem {
 
 impl Linear {
     fn holds(&self, levels: &[i64]) -> bool {
-        let sum: f64 = self
-            .terms
-            .iter()
-            .map(|&(i, c)| c * levels[i as usize] as f64)
-            .sum();
+        let sum: f64 = self.terms.iter().map(|&(i, c)| c * levels[i as usize] as f64).sum();
         sum >= self.at_least - Problem::LINEAR_TOLERANCE
     }
 }

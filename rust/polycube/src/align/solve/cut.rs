@@ -135,10 +135,7 @@ impl Network {
     /// Sends what fits along the path to the demand of `sink`; returns where the path is still open.
     fn push(&mut self, source: usize, sink: usize) -> usize {
         let ends = self.supply[source].min(-self.supply[sink]);
-        let amount = self
-            .path
-            .iter()
-            .fold(ends, |m, &e| m.min(self.room[e as usize]));
+        let amount = self.path.iter().fold(ends, |m, &e| m.min(self.room[e as usize]));
         self.supply[source] -= amount;
         self.supply[sink] += amount;
         for &e in &self.path {
@@ -147,8 +144,6 @@ impl Network {
         }
         let full = self.path.iter().position(|&e| self.room[e as usize] == 0);
         self.path.truncate(full.unwrap_or(self.path.len()));
-        self.path
-            .last()
-            .map_or(source, |&e| self.head[e as usize] as usize)
+        self.path.last().map_or(source, |&e| self.head[e as usize] as usize)
     }
 }

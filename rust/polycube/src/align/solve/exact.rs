@@ -31,12 +31,7 @@ use crate::error::{Error, ErrorKind, Result};
 pub struct ExactSolver;
 
 impl Solver for ExactSolver {
-    fn solve(
-        &self,
-        problem: &Problem,
-        start: Option<&[i64]>,
-        context: &Context,
-    ) -> Result<Solution> {
+    fn solve(&self, problem: &Problem, start: Option<&[i64]>, context: &Context) -> Result<Solution> {
         if !problem.linear.is_empty() {
             let message = "this solver knows differences of two levels only";
             return Err(Error::new(ErrorKind::Unsupported, message).remedy("use LinearSolver"));
@@ -73,11 +68,7 @@ pub(super) fn descend(problem: &Problem, levels: &mut [i64], context: &Context) 
 /// Puts a part without pairs on its rounded targets if they keep their distances; whether that solved it.
 fn settle(problem: &Problem, part: &Part, levels: &mut [i64]) -> bool {
     let near = |i: u32| problem.rounded_target(part.variables[i as usize]);
-    let solved = part.pairs.is_empty()
-        && part
-            .differences
-            .iter()
-            .all(|d| near(d.high) - near(d.low) >= d.gap);
+    let solved = part.pairs.is_empty() && part.differences.iter().all(|d| near(d.high) - near(d.low) >= d.gap);
     if solved {
         for &v in &part.variables {
             levels[v] = problem.rounded_target(v);
@@ -122,13 +113,7 @@ struct Descent<'a> {
 }
 
 impl<'a> Descent<'a> {
-    fn new(
-        problem: &Problem,
-        part: &'a Part,
-        x: Vec<i64>,
-        network: &'a mut Network,
-        context: &'a Context,
-    ) -> Self {
+    fn new(problem: &Problem, part: &'a Part, x: Vec<i64>, network: &'a mut Network, context: &'a Context) -> Self {
         let fixed = |v: usize| i128::from(problem.fixed_target(v));
         let term = |&v: &usize| (i128::from(problem.shape[v].weight), fixed(v));
         Self {
@@ -150,9 +135,7 @@ impl<'a> Descent<'a> {
         let far = self.x.iter().map(|&x| (x - low).max(high - x)).max();
         let far = far.unwrap_or(1);
         let mut stride = 1;
-        while stride < far
-            && self.shift(Way::Up, stride, false)? | self.shift(Way::Down, stride, false)?
-        {
+        while stride < far && self.shift(Way::Up, stride, false)? | self.shift(Way::Down, stride, false)? {
             stride *= 2;
         }
         while stride > 1 {
@@ -163,10 +146,7 @@ impl<'a> Descent<'a> {
         while self.shift(Way::Down, 1, true)? {}
         // Free moves down cannot open a way up; this cut proves it.
         if self.shift(Way::Up, 1, false)? {
-            return Err(Error::new(
-                ErrorKind::Internal,
-                "the descent did not end at an optimum",
-            ));
+            return Err(Error::new(ErrorKind::Internal, "the descent did not end at an optimum"));
         }
         Ok(())
     }
@@ -206,10 +186,7 @@ impl<'a> Descent<'a> {
         let p = &self.part.pairs[i];
         let twice = 2 * (self.x[p.a as usize] - self.x[p.b as usize]);
         let weight = self.unit * i128::from(p.weight);
-        (
-            weight * i128::from(twice - stride),
-            weight * i128::from(twice + stride),
-        )
+        (weight * i128::from(twice - stride), weight * i128::from(twice + stride))
     }
 
     fn is_tight(&self, i: usize, stride: i64) -> bool {
@@ -235,20 +212,10 @@ impl<'a> Descent<'a> {
         for (i, &(weight, target)) in self.shape.iter().enumerate() {
             let apart = (i128::from(self.x[i]) << Problem::FRACTION_BITS) - target;
             let own = i128::from(stride) << Problem::FRACTION_BITS;
-            self.supply[i] = weight
-                * (if way == Way::Up {
-                    -2 * apart
-                } else {
-                    2 * apart
-                } - own);
+            self.supply[i] = weight * (if way == Way::Up { -2 * apart } else { 2 * apart } - own);
         }
         let pairs = self.part.pairs.iter().map(|p| (p.a, p.b)).zip(&self.pull);
-        let differences = self
-            .part
-            .differences
-            .iter()
-            .map(|d| (d.low, d.high))
-            .zip(&self.push);
+        let differences = self.part.differences.iter().map(|d| (d.low, d.high)).zip(&self.push);
         for (ends, &force) in pairs.chain(differences) {
             let (from, to) = way.order(ends);
             self.supply[from as usize] -= force;
@@ -261,8 +228,7 @@ impl<'a> Descent<'a> {
         for (i, p) in self.part.pairs.iter().enumerate() {
             let (least, most) = self.range(i, stride);
             let (from, to) = way.order((p.a, p.b));
-            self.network
-                .join(from, to, most - self.pull[i], self.pull[i] - least);
+            self.network.join(from, to, most - self.pull[i], self.pull[i] - least);
         }
         for (i, d) in self.part.differences.iter().enumerate() {
             if self.is_tight(i, stride) {

@@ -22,9 +22,7 @@ use good_lp::highs as backend;
 #[cfg(not(feature = "highs"))]
 use good_lp::microlp as backend;
 use good_lp::solvers::{SolutionStatus, WithMipGap, WithTimeLimit};
-use good_lp::{
-    Expression, ProblemVariables, ResolutionError, Solution as _, SolverModel, Variable, variable,
-};
+use good_lp::{Expression, ProblemVariables, ResolutionError, Solution as _, SolverModel, Variable, variable};
 use std::collections::BTreeSet;
 use std::time::Duration;
 
@@ -46,19 +44,12 @@ pub struct LinearSolver {
 
 impl Default for LinearSolver {
     fn default() -> Self {
-        Self {
-            time_limit: Duration::from_secs(60),
-        }
+        Self { time_limit: Duration::from_secs(60) }
     }
 }
 
 impl Solver for LinearSolver {
-    fn solve(
-        &self,
-        problem: &Problem,
-        start: Option<&[i64]>,
-        context: &Context,
-    ) -> Result<Solution> {
+    fn solve(&self, problem: &Problem, start: Option<&[i64]>, context: &Context) -> Result<Solution> {
         let start = begin(problem, start)?;
         let mut model = Model::new(problem, &start);
         let mut steps = 0;
@@ -71,14 +62,9 @@ impl Solver for LinearSolver {
             }
         };
         for value in &mut moves {
-            *value = whole(*value)
-                .ok_or_else(|| internal("a level of the linear program is fractional"))?;
+            *value = whole(*value).ok_or_else(|| internal("a level of the linear program is fractional"))?;
         }
-        let mut levels: Vec<i64> = start
-            .iter()
-            .zip(&moves)
-            .map(|(x, &by)| x + by as i64)
-            .collect();
+        let mut levels: Vec<i64> = start.iter().zip(&moves).map(|(x, &by)| x + by as i64).collect();
         if problem.linear.is_empty() {
             polish(problem, &mut levels, context)?;
         }
@@ -89,17 +75,13 @@ impl Solver for LinearSolver {
 /// Brings an optimum in floating point to the lowest exact one.
 fn polish(problem: &Problem, levels: &mut [i64], context: &Context) -> Result<()> {
     if let Err(violation) = problem.is_feasible(levels) {
-        return Err(internal(&format!(
-            "the linear program's result is wrong: {violation}"
-        )));
+        return Err(internal(&format!("the linear program's result is wrong: {violation}")));
     }
     let before = problem.cost(levels);
     descend(problem, levels, context)?;
     let after = problem.cost(levels);
     if before - after > TOLERANCE * after.max(1.0) {
-        return Err(internal(&format!(
-            "the linear program missed the optimum: {before} instead of {after}"
-        )));
+        return Err(internal(&format!("the linear program missed the optimum: {before} instead of {after}")));
     }
     Ok(())
 }
@@ -117,19 +99,9 @@ struct Term {
 impl Term {
     /// A term with chords at doubling distances up to `far`, so that the first optimum is near the last.
     fn new(plus: usize, minus: Option<usize>, curvature: f64, centre: f64, far: i64) -> Self {
-        let doubling =
-            || std::iter::successors(Some(0), |k| Some(2 * k + 1)).take_while(|&k| k <= far);
-        let chords = doubling()
-            .flat_map(|k| [k, -1 - k])
-            .chain([-1, 0])
-            .collect();
-        Self {
-            plus,
-            minus,
-            curvature,
-            centre,
-            chords,
-        }
+        let doubling = || std::iter::successors(Some(0), |k| Some(2 * k + 1)).take_while(|&k| k <= far);
+        let chords = doubling().flat_map(|k| [k, -1 - k]).chain([-1, 0]).collect();
+        Self { plus, minus, curvature, centre, chords }
     }
 
     fn slope(&self, chord: i64) -> f64 {
@@ -158,9 +130,7 @@ impl Term {
                 // Chords k and m of a parabola meet at (k + m + 1) / 2; the first begins at 0.
                 let meet = |m: i64| (k + m + 1) as f64 / 2.0;
                 let from = if i == 0 { 0.0 } else { meet(chords[i - 1]) };
-                let width = chords
-                    .get(i + 1)
-                    .map_or(f64::INFINITY, |&m| (meet(m) - from).abs());
+                let width = chords.get(i + 1).map_or(f64::INFINITY, |&m| (meet(m) - from).abs());
                 let segment = columns.add(variable().min(0.0).max(width));
                 y.add_mul(sign, segment);
                 objective.add_mul(sign * self.slope(k), segment);
@@ -189,19 +159,9 @@ impl<'a> Model<'a> {
         });
         let pairs = problem.pairs.iter().filter(|p| p.a != p.b).map(|p| {
             let (a, b) = (p.a as usize, p.b as usize);
-            Term::new(
-                a,
-                Some(b),
-                inverse * f64::from(p.weight),
-                (start[b] - start[a]) as f64,
-                far,
-            )
+            Term::new(a, Some(b), inverse * f64::from(p.weight), (start[b] - start[a]) as f64, far)
         });
-        Self {
-            problem,
-            start,
-            terms: shape.chain(pairs).collect(),
-        }
+        Self { problem, start, terms: shape.chain(pairs).collect() }
     }
 
     /// Adds what the model lacks to be exact at `moves`; whether it lacked anything.
@@ -213,20 +173,14 @@ impl<'a> Model<'a> {
     /// The optimal moves of the program as it stands.
     fn optimum(&self, time_limit: Duration) -> Result<Vec<f64>> {
         let mut columns = ProblemVariables::new();
-        let moves: Vec<Variable> = self
-            .start
-            .iter()
-            .map(|&x| columns.add(self.level(x)))
-            .collect();
+        let moves: Vec<Variable> = self.start.iter().map(|&x| columns.add(self.level(x))).collect();
         let mut objective = Expression::default();
         let segments = |t: &Term| t.segments(&mut columns, &mut objective);
         let sums: Vec<Expression> = self.terms.iter().map(segments).collect();
         let mut program = columns.minimise(objective).using(backend);
         if self.is_mixed() {
             program = program.with_time_limit(time_limit.as_secs_f64());
-            program = program
-                .with_mip_gap(0.0)
-                .map_err(|e| internal(&e.to_string()))?;
+            program = program.with_mip_gap(0.0).map_err(|e| internal(&e.to_string()))?;
         }
         for (term, mut row) in self.terms.iter().zip(sums) {
             row.add_mul(-1.0, moves[term.plus]);
@@ -247,11 +201,7 @@ impl<'a> Model<'a> {
     fn level(&self, x: i64) -> good_lp::VariableDefinition {
         let bound = Problem::MAX_LEVEL;
         let column = variable().bounds((-bound - x) as f64..=(bound - x) as f64);
-        if self.is_mixed() {
-            column.integer()
-        } else {
-            column
-        }
+        if self.is_mixed() { column.integer() } else { column }
     }
 
     fn is_mixed(&self) -> bool {
@@ -284,11 +234,7 @@ fn tighten(row: &Linear) -> Linear {
     if !row.terms.iter().all(|t| small(t.1)) {
         return row.clone();
     }
-    let divisor = row
-        .terms
-        .iter()
-        .fold(0, |g, t| common_divisor(g, t.1.abs() as u64))
-        .max(1) as f64;
+    let divisor = row.terms.iter().fold(0, |g, t| common_divisor(g, t.1.abs() as u64)).max(1) as f64;
     Linear {
         terms: row.terms.iter().map(|&(v, c)| (v, c / divisor)).collect(),
         at_least: ((row.at_least - Problem::LINEAR_TOLERANCE) / divisor).ceil(),
@@ -310,25 +256,15 @@ fn internal(message: &str) -> Error {
 }
 
 fn too_long() -> Error {
-    Error::new(
-        ErrorKind::Unsupported,
-        "the mixed-integer program takes longer than the time limit",
-    )
-    .remedy("leave out separation planes, or raise the time limit")
+    Error::new(ErrorKind::Unsupported, "the mixed-integer program takes longer than the time limit")
+        .remedy("leave out separation planes, or raise the time limit")
 }
 
 fn failure(error: ResolutionError) -> Error {
     match error {
-        ResolutionError::Infeasible => Error::new(
-            ErrorKind::Infeasible,
-            "no levels satisfy all linear constraints",
-        )
-        .remedy("leave out separation planes, or keep distances only"),
-        ResolutionError::Other(reason)
-            if reason.contains("ime limit") || reason == "NoSolutionFound" =>
-        {
-            too_long()
-        }
+        ResolutionError::Infeasible => Error::new(ErrorKind::Infeasible, "no levels satisfy all linear constraints")
+            .remedy("leave out separation planes, or keep distances only"),
+        ResolutionError::Other(reason) if reason.contains("ime limit") || reason == "NoSolutionFound" => too_long(),
         other => internal(&format!("linear program: {other}")),
     }
 }

@@ -47,12 +47,7 @@ pub trait Solver {
     /// [`ErrorKind::Option`] for numbers out of range, [`ErrorKind::Infeasible`] for contradictory constraints,
     /// [`ErrorKind::Unsupported`] for constraints this solver does not know, [`ErrorKind::Cancelled`], and
     /// [`ErrorKind::Internal`] should the result fail its checks.
-    fn solve(
-        &self,
-        problem: &Problem,
-        start: Option<&[i64]>,
-        context: &Context,
-    ) -> Result<Solution>;
+    fn solve(&self, problem: &Problem, start: Option<&[i64]>, context: &Context) -> Result<Solution>;
 }
 
 /// The feasible point where a search begins.
@@ -65,16 +60,9 @@ fn begin(problem: &Problem, start: Option<&[i64]>) -> Result<Vec<i64>> {
 
 /// Checks the result of a solver before it is handed out.
 fn finish(problem: &Problem, levels: Vec<i64>, steps: u32) -> Result<Solution> {
-    problem.is_feasible(&levels).map_err(|violation| {
-        Error::new(
-            ErrorKind::Internal,
-            format!("the solver's result is wrong: {violation}"),
-        )
-    })?;
+    problem
+        .is_feasible(&levels)
+        .map_err(|violation| Error::new(ErrorKind::Internal, format!("the solver's result is wrong: {violation}")))?;
     let cost = problem.cost(&levels);
-    Ok(Solution {
-        levels,
-        cost,
-        steps,
-    })
+    Ok(Solution { levels, cost, steps })
 }

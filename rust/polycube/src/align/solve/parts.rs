@@ -26,20 +26,12 @@ pub(super) fn split(problem: &Problem) -> Vec<Part> {
     let (mut parts, places) = number(&mut forest);
     for p in problem.pairs.iter().filter(|p| p.a != p.b) {
         let (part, a) = places[p.a as usize];
-        let pair = PairTerm {
-            a,
-            b: places[p.b as usize].1,
-            weight: p.weight,
-        };
+        let pair = PairTerm { a, b: places[p.b as usize].1, weight: p.weight };
         parts[part].pairs.push(pair);
     }
     for d in problem.differences.iter().filter(|d| d.low != d.high) {
         let (part, low) = places[d.low as usize];
-        let difference = Difference {
-            low,
-            high: places[d.high as usize].1,
-            gap: d.gap,
-        };
+        let difference = Difference { low, high: places[d.high as usize].1, gap: d.gap };
         parts[part].differences.push(difference);
     }
     parts
@@ -54,11 +46,7 @@ fn number(forest: &mut [u32]) -> (Vec<Part>, Vec<(usize, u32)>) {
         if first == v {
             parts.push(Part::default());
         }
-        let part = if first == v {
-            parts.len() - 1
-        } else {
-            places[first].0
-        };
+        let part = if first == v { parts.len() - 1 } else { places[first].0 };
         places.push((part, parts[part].variables.len() as u32));
         parts[part].variables.push(v);
     }

@@ -13,20 +13,12 @@ pub(crate) fn between(differences: &[Difference], near: &[i64]) -> Result<Vec<i6
     let mirrored: Vec<Difference> = differences.iter().map(mirror).collect();
     let mut below: Vec<i64> = near.iter().map(|x| -x).collect();
     raise(&mirrored, &mut below)?;
-    Ok(above
-        .iter()
-        .zip(&below)
-        .map(|(a, b)| (a - b).div_euclid(2))
-        .collect())
+    Ok(above.iter().zip(&below).map(|(a, b)| (a - b).div_euclid(2)).collect())
 }
 
 /// The same constraint on the negated variables.
 fn mirror(d: &Difference) -> Difference {
-    Difference {
-        low: d.high,
-        high: d.low,
-        gap: d.gap,
-    }
+    Difference { low: d.high, high: d.low, gap: d.gap }
 }
 
 /// Raises `x` to the least solution that is nowhere below it: Bellman–Ford for longest paths.
@@ -84,8 +76,7 @@ fn contradiction(parent: &[Option<&Difference>], at: usize) -> Error {
     let lowest = (0..cycle.len()).min_by_key(|&i| cycle[i]).unwrap_or(0);
     cycle.rotate_left(lowest);
     let excess: i64 = cycle.iter().filter_map(|&v| parent[v]).map(|d| d.gap).sum();
-    Error::new(ErrorKind::Infeasible, describe(&cycle, excess))
-        .remedy("remove one of these distances or lower its gap")
+    Error::new(ErrorKind::Infeasible, describe(&cycle, excess)).remedy("remove one of these distances or lower its gap")
 }
 
 fn describe(cycle: &[usize], excess: i64) -> String {
@@ -94,8 +85,5 @@ fn describe(cycle: &[usize], excess: i64) -> String {
         names.push(format!("… ({} in all)", cycle.len()));
     }
     names.push(format!("x{}", cycle[0]));
-    format!(
-        "distances contradict each other along {}: their gaps add up to {excess}, above 0",
-        names.join(" → ")
-    )
+    format!("distances contradict each other along {}: their gaps add up to {excess}, above 0", names.join(" → "))
 }

@@ -37,45 +37,28 @@ fn problems(most: usize, spread: i64, halvings: u32) -> impl Strategy<Value = Pr
     (2..=most).prop_flat_map(move |n| {
         let v = 0..n as u32;
         let tenths = -10 * spread..=10 * spread;
-        let target = prop_oneof![
-            tenths.prop_map(|t| t as f64 / 10.0),
-            (-spread..=spread).prop_map(|t| t as f64 + 0.5)
-        ];
+        let target = prop_oneof![tenths.prop_map(|t| t as f64 / 10.0), (-spread..=spread).prop_map(|t| t as f64 + 0.5)];
         let shape = prop::collection::vec((1_u32..6, target), n);
         let pairs = prop::collection::vec((v.clone(), v.clone(), 1_u32..4), 0..2 * n);
         let hidden = prop::collection::vec(-spread..=spread, n);
-        let slacks = prop::collection::vec(
-            (v.clone(), v, prop_oneof![Just(0_i64), 0..=2 * spread]),
-            0..2 * n,
-        );
-        (shape, pairs, hidden, slacks, 0..=halvings).prop_map(
-            |(shape, pairs, hidden, slacks, halvings)| {
-                let apart = |low: u32, high: u32| hidden[high as usize] - hidden[low as usize];
-                Problem {
-                    shape: shape.into_iter().map(|(w, t)| pull(w, t)).collect(),
-                    pairs: pairs
-                        .into_iter()
-                        .map(|(a, b, weight)| PairTerm { a, b, weight })
-                        .collect(),
-                    halvings,
-                    differences: slacks
-                        .into_iter()
-                        .map(|(l, h, s)| gap(l, h, apart(l, h) - s))
-                        .collect(),
-                    linear: Vec::new(),
-                }
-            },
-        )
+        let slacks = prop::collection::vec((v.clone(), v, prop_oneof![Just(0_i64), 0..=2 * spread]), 0..2 * n);
+        (shape, pairs, hidden, slacks, 0..=halvings).prop_map(|(shape, pairs, hidden, slacks, halvings)| {
+            let apart = |low: u32, high: u32| hidden[high as usize] - hidden[low as usize];
+            Problem {
+                shape: shape.into_iter().map(|(w, t)| pull(w, t)).collect(),
+                pairs: pairs.into_iter().map(|(a, b, weight)| PairTerm { a, b, weight }).collect(),
+                halvings,
+                differences: slacks.into_iter().map(|(l, h, s)| gap(l, h, apart(l, h) - s)).collect(),
+                linear: Vec::new(),
+            }
+        })
     })
 }
 
 fn mirrored(problem: &Problem) -> Problem {
     let mut mirror = problem.clone();
     mirror.shape.iter_mut().for_each(|s| s.target = -s.target);
-    mirror
-        .differences
-        .iter_mut()
-        .for_each(|d| std::mem::swap(&mut d.low, &mut d.high));
+    mirror.differences.iter_mut().for_each(|d| std::mem::swap(&mut d.low, &mut d.high));
     mirror
 }
 
