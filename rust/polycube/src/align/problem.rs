@@ -305,9 +305,14 @@ impl Problem {
                 self.differences[i]
             )));
         }
-        let finite = |l: &Linear| l.at_least.is_finite() && l.terms.iter().all(|t| t.1.is_finite());
-        match self.linear.iter().position(|l| !finite(l)) {
-            Some(i) => Err(out_of_range(format!("linear constraint {i} is not finite"))),
+        let fine = |l: &Linear| {
+            let finite = l.at_least.is_finite() && l.terms.iter().all(|t| t.1.is_finite());
+            finite && !l.terms.is_empty()
+        };
+        match self.linear.iter().position(|l| !fine(l)) {
+            Some(i) => Err(out_of_range(format!(
+                "linear constraint {i} is empty or not finite"
+            ))),
             None => Ok(()),
         }
     }
