@@ -51,11 +51,9 @@ impl Failure {
             ErrorKind::Mesh | ErrorKind::Polycube | ErrorKind::Mismatch => INVALID,
             ErrorKind::Option => USAGE,
             ErrorKind::Cancelled => CANCELLED,
-            ErrorKind::Io
-            | ErrorKind::Parse
-            | ErrorKind::Unsupported
-            | ErrorKind::Infeasible
-            | ErrorKind::Internal => FAILURE,
+            ErrorKind::Io | ErrorKind::Parse | ErrorKind::Unsupported | ErrorKind::Infeasible | ErrorKind::Internal => {
+                FAILURE
+            }
         }
     }
 }

@@ -59,7 +59,11 @@ pub fn run(args: &Args) -> Result<ExitCode> {
     let meshes = MeshFiles::read(file, None, args.mesh.labels.as_deref())?;
     let polycube = read_structure(&meshes.input(), &args.mesh.tolerance.get()).map_err(Failure::in_file(file))?;
     let found = Found::new(file.display().to_string(), &meshes.polycube, &polycube);
-    if args.json { terminal::print_json(&found)? } else { terminal::print(&found.to_text())? }
+    if args.json {
+        terminal::print_json(&found)?
+    } else {
+        terminal::print(&found.to_text())?
+    }
     Ok(ExitCode::SUCCESS)
 }
 
@@ -108,7 +112,7 @@ impl Found {
             ("boundary faces", self.boundary_faces.to_string()),
             ("components", self.components.to_string()),
             ("genus", self.genus.to_string()),
-            ("charts", list(self.charts.iter().map(|(l, n)| format!("{l} {n}")))),
+            ("charts", list(all_labels().map(|l| format!("{l} {}", self.charts.get(&l).unwrap_or(&0))))),
             ("corners", format!("{} ({})", self.corners, self.valences())),
             ("edges", format!("{}, the shortest {} units long", self.edges, short(self.shortest_edge))),
             ("facets", format!("{}, {} with holes", self.facets, self.facets_with_holes)),
@@ -122,9 +126,14 @@ impl Found {
     }
 }
 
+/// The names of the labels, in their order.
+fn all_labels() -> impl Iterator<Item = String> {
+    (0..6).filter_map(Label::new).map(|l| l.to_string())
+}
+
 /// All six labels, those without charts too.
 fn charts(polycube: &Polycube) -> BTreeMap<String, usize> {
-    let mut charts: BTreeMap<String, usize> = (0..6).filter_map(Label::new).map(|l| (l.to_string(), 0)).collect();
+    let mut charts: BTreeMap<String, usize> = all_labels().map(|l| (l, 0)).collect();
     for facet in &polycube.structure.facets {
         *charts.entry(facet.label.to_string()).or_default() += 1;
     }

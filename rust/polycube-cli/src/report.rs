@@ -1,7 +1,8 @@
 //! What `simplify` writes beside the mesh: `report.json` and `structure.json`.
 
-use polycube::simplify::{Report, Simplified};
-use polycube::structure::{Arrangement, Edge, Facet};
+use polycube::align::SolverKind;
+use polycube::simplify::{Options, Report, Simplified};
+use polycube::structure::{Arrangement, Edge, Facet, Tolerance};
 use serde::Serialize;
 
 /// The files a run read, as they were named.
@@ -20,6 +21,8 @@ pub struct Files {
 pub struct RunReport<'a> {
     /// What was read.
     pub input: &'a Files,
+    /// How it was done; the scale and the strategy are below.
+    pub options: OptionsUsed,
     /// The name of the simplified polycube in the output folder; nothing if there is no valid one.
     pub output: Option<&'a str>,
     /// What was done.
@@ -27,6 +30,20 @@ pub struct RunReport<'a> {
     pub report: &'a Report,
     /// Where a naive rounding broke the polycube.
     pub broken: &'a [Broken],
+}
+
+/// The options that the library's report does not repeat.
+#[derive(Clone, Copy, Debug, Serialize)]
+pub struct OptionsUsed {
+    lambda_min: f64,
+    solver: SolverKind,
+    tolerance: Tolerance,
+}
+
+impl From<Options> for OptionsUsed {
+    fn from(Options { lambda_min, solver, tolerance, .. }: Options) -> Self {
+        Self { lambda_min, solver, tolerance }
+    }
 }
 
 /// A place where the rounded surface touches or crosses itself.

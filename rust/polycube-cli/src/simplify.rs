@@ -20,11 +20,15 @@ use std::time::Instant;
 const NOTES: &str = "\
 In the output folder:
   polycube.EXT    the simplified polycube in lattice units, with the connectivity of the input
+  polycube.labels the label of each of its boundary faces, one a line, for --labels
   structure.json  levels, corners, edges and facets, before and after
   report.json     options, counts, rounds, times, displacement, distortion, flipped elements
 They appear together when all is done, or not at all. With `--strategy naive` and a result that is
-not valid, the two reports say what broke, there is no polycube.EXT, and the exit code is 3.
+not valid, the two reports say what broke, there is no polycube, and the exit code is 3.
 `polycube --help` lists the exit codes.";
+
+/// The name of the label file written.
+const LABELS: &str = "polycube.labels";
 
 /// What to simplify and how.
 #[derive(clap::Args, Clone, Debug)]
@@ -89,7 +93,9 @@ impl clap::ValueEnum for StrategyArg {
     /// A strategy without a name here does not compile; name it above, too.
     fn to_possible_value(&self) -> Option<PossibleValue> {
         let (name, help) = match self.0 {
-            Strategy::Naive => ("naive", "Round every level to the lattice, as usual pipelines do; may break the polycube"),
+            Strategy::Naive => {
+                ("naive", "Round every level to the lattice, as usual pipelines do; may break the polycube")
+            }
             Strategy::Paper => ("paper", "Align corners round by round (Algorithm 1 of the paper)"),
         };
         Some(PossibleValue::new(name).help(help))
@@ -198,6 +204,8 @@ fn write(
     let name = format!("polycube.{format}");
     if let Some(mesh) = &result.polycube {
         output.add(&name, &mesh::write_bytes(format, mesh, &[])?)?;
+        let labels: String = result.input.labels().map(|l| format!("{}\n", l.index())).collect();
+        output.add(LABELS, labels.as_bytes())?;
     }
     let broken = report::broken(result);
     output.add("structure.json", terminal::to_json(&StructureFile::new(result, &broken))?.as_bytes())?;
@@ -206,8 +214,10 @@ fn write(
     seconds.total += seconds.read + seconds.write;
     let files = args.files();
     let valid = result.polycube.is_some();
-    let run = RunReport { input: &files, output: valid.then_some(&name), report: &result.report, broken: &broken };
+    let options = args.options().into();
+    let output_name = valid.then_some(name.as_str());
+    let run = RunReport { input: &files, options, output: output_name, report: &result.report, broken: &broken };
     output.add("report.json", terminal::to_json(&run)?.as_bytes())?;
-    let stale = if valid { Vec::new() } else { vec![output.path(&name)] };
+    let stale = if valid { Vec::new() } else { vec![output.path(&name), output.path(LABELS)] };
     Ok(output.publish(&stale, context)?)
 }

@@ -21,18 +21,16 @@ pub fn table<const N: usize>(header: [&str; N], rows: impl IntoIterator<Item = [
 
 /// The three counts, by their names for people.
 pub fn counts(counts: &Counts) -> [(&'static str, usize); 3] {
-    [
-        ("surface patches", counts.surface_patches),
-        ("blocks", counts.blocks),
-        ("blocks, padded", counts.blocks_padded),
-    ]
+    [("surface patches", counts.surface_patches), ("blocks", counts.blocks), ("blocks, padded", counts.blocks_padded)]
 }
 
 /// What a run did.
 pub fn summary(report: &Report) -> String {
     let mut text = match &report.after {
         Some(after) => gains(&report.before, after),
-        None => table(["", "before", "after"], counts(&report.before).map(|(n, x)| [n.into(), x.to_string(), "-".into()])),
+        None => {
+            table(["", "before", "after"], counts(&report.before).map(|(n, x)| [n.into(), x.to_string(), "-".into()]))
+        }
     };
     text.push('\n');
     for (name, value) in facts(report) {
@@ -59,8 +57,12 @@ fn facts(report: &Report) -> Vec<(&'static str, String)> {
         ("corners moved by", format!("at most {} units of the input", short(report.max_displacement))),
     ];
     if let Some([before, after]) = &report.distortion {
-        facts.push(("angle distortion", format!("{:.3} before, {:.3} after (mean; 1 is none)", before.angle, after.angle)));
-        facts.push(("size distortion", format!("{:.3} before, {:.3} after (mean; 1 is none)", before.size, after.size)));
+        facts.push((
+            "angle distortion",
+            format!("{:.3} before, {:.3} after (mean; 1 is none)", before.angle, after.angle),
+        ));
+        facts
+            .push(("size distortion", format!("{:.3} before, {:.3} after (mean; 1 is none)", before.size, after.size)));
     }
     if report.valid {
         facts.push(("flipped elements", report.flipped_elements.to_string()));

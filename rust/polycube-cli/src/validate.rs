@@ -63,7 +63,11 @@ pub fn run(args: &Args) -> Result<ExitCode> {
     let name = |path: &PathBuf| path.display().to_string();
     let valid = violations.is_empty();
     let verdict = Verdict { valid, file: name(&args.mesh.polycube), shape: args.shape.as_ref().map(name), violations };
-    if args.json { terminal::print_json(&verdict)? } else { terminal::print(&verdict.to_text())? }
+    if args.json {
+        terminal::print_json(&verdict)?
+    } else {
+        terminal::print(&verdict.to_text())?
+    }
     Ok(if valid { ExitCode::SUCCESS } else { ExitCode::from(INVALID) })
 }
 
@@ -115,7 +119,11 @@ fn unreadable(error: Error) -> polycube::Result<Finding> {
         _ => return Err(error),
     };
     let mesh = if rule == "mismatch" { "shape" } else { "polycube" };
-    Ok(Finding { rule, mesh, element: error.place, at: None, message: error.message, remedy: error.remedy })
+    let remedy = match error.remedy.is_empty() {
+        true => "export the mesh again".to_owned(),
+        false => error.remedy,
+    };
+    Ok(Finding { rule, mesh, element: error.place, at: None, message: error.message, remedy })
 }
 
 impl Finding {
