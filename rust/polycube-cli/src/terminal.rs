@@ -21,7 +21,7 @@ pub fn print(text: &str) -> Result<()> {
 /// Prints `value` as indented JSON.
 ///
 /// # Errors
-/// As [`print`].
+/// As [`print()`].
 pub fn print_json(value: &impl Serialize) -> Result<()> {
     print(&to_json(value)?)
 }

@@ -54,7 +54,7 @@ fn what_is_nearly_a_polycube_is_accepted_and_reported() {
     let sandbox = Sandbox::new();
     let mut mesh = coarse(Example::Ring, CellKind::Triangles);
     for (i, p) in mesh.points.iter_mut().enumerate() {
-        *p = *p * 0.37;
+        *p *= 0.37;
         p.z += 0.05 * (i as f64).sin();
     }
     sandbox.write_mesh("ring.ply", &mesh);

@@ -17,10 +17,10 @@ use std::process::{Command, Output};
 use tempfile::TempDir;
 
 /// A folder that goes away with the test, and the command run in it.
-pub struct Sandbox(TempDir);
+pub(crate) struct Sandbox(TempDir);
 
 /// What a run gave.
-pub struct Run {
+pub(crate) struct Run {
     /// The exit code.
     pub code: i32,
     /// Standard output.
