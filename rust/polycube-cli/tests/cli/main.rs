@@ -9,7 +9,8 @@ mod real;
 mod simplify;
 mod validate;
 
-use polycube::generate::{CellKind, Example};
+use polycube::generate::Example;
+use polycube::mesh::CellKind;
 use polycube::mesh::{self, Mesh, Point};
 use serde_json::Value;
 use std::path::{Path, PathBuf};

@@ -1,7 +1,8 @@
 //! `polycube validate`: every rule, broken by hand.
 
 use super::{Sandbox, bent};
-use polycube::generate::{CellKind, Cuboid, Voxels};
+use polycube::generate::{Cuboid, Voxels};
+use polycube::mesh::CellKind;
 use polycube::mesh::{self, Cells, Mesh, Point};
 use polycube::structure::{Polycube, Tolerance};
 use serde_json::Value;

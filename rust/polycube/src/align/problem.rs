@@ -293,9 +293,7 @@ impl Problem {
             finite && !l.terms.is_empty()
         };
         match self.linear.iter().position(|l| !fine(l)) {
-            Some(i) => Err(out_of_range(format!(
-                "linear constraint {i} is empty or not finite"
-            ))),
+            Some(i) => Err(out_of_range(format!("linear constraint {i} is empty or not finite"))),
             None => Ok(()),
         }
     }

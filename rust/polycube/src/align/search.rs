@@ -1,6 +1,5 @@
 //! Fewer blocks than Algorithm 1: a search over orders of levels that counts blocks at every step.
 
-
 use super::ranks::Ranks;
 use crate::context::Context;
 use crate::error::Result;
@@ -44,8 +43,20 @@ impl<'a, R: PrimInt> Search<'a, R> {
             list.sort_unstable();
             list.dedup();
         }
-        let by_axis = std::array::from_fn(|a| (0..structure.levels.len() as u32).filter(|&l| structure.levels[l as usize].axis == a).collect());
-        Self { structure, rows: Rows::new(structure), random: SplitMix64::new(seed), below, above, by_axis, targets, gap, weight: 0.0 }
+        let by_axis = std::array::from_fn(|a| {
+            (0..structure.levels.len() as u32).filter(|&l| structure.levels[l as usize].axis == a).collect()
+        });
+        Self {
+            structure,
+            rows: Rows::new(structure),
+            random: SplitMix64::new(seed),
+            below,
+            above,
+            by_axis,
+            targets,
+            gap,
+            weight: 0.0,
+        }
     }
 
     pub fn state(&mut self, ranks: Ranks) -> Option<State> {
@@ -62,25 +73,43 @@ impl<'a, R: PrimInt> Search<'a, R> {
         s.counts.blocks_padded as f64 + self.weight * (s.shape[0] + s.shape[1] + s.shape[2]).sqrt()
     }
 
-    pub fn anneal(&mut self, start: State, iterations: usize, hot: f64, cold: f64, weight: f64, context: &Context) -> Result<State> {
+    pub fn anneal(
+        &mut self,
+        start: State,
+        iterations: usize,
+        hot: f64,
+        cold: f64,
+        weight: f64,
+        context: &Context,
+    ) -> Result<State> {
         self.weight = weight;
         let mut now = start.clone();
         let mut best = start;
         for i in 0..iterations {
-            if i % 256 == 0 { context.tick(i as f64 / iterations as f64)?; }
+            if i % 256 == 0 {
+                context.tick(i as f64 / iterations as f64)?;
+            }
             let t = hot * (cold / hot).powf(i as f64 / iterations as f64);
             let Some(ranks) = self.propose(&now.ranks) else { continue };
-            let axis = (0..3).find(|&a| self.by_axis[a].iter().any(|&l| ranks.of_level[l as usize] != now.ranks.of_level[l as usize])).unwrap_or(0);
+            let axis = (0..3)
+                .find(|&a| {
+                    self.by_axis[a].iter().any(|&l| ranks.of_level[l as usize] != now.ranks.of_level[l as usize])
+                })
+                .unwrap_or(0);
             let Some(counts) = self.rows.count(&ranks.of_level, ranks.planes) else { continue };
             let delta = counts.blocks_padded as f64 - now.counts.blocks_padded as f64;
-            if delta > 12.0 * t { continue }
+            if delta > 12.0 * t {
+                continue;
+            }
             let mut shape = now.shape;
             shape[axis] = self.shape(&ranks, axis);
             let next = State { ranks, counts, shape };
             let de = self.energy(&next) - self.energy(&now);
             if de <= 0.0 || self.uniform() < (-de / t).exp() {
                 now = next;
-                if self.energy(&now) < self.energy(&best) - 1e-9 { best = now.clone(); }
+                if self.energy(&now) < self.energy(&best) - 1e-9 {
+                    best = now.clone();
+                }
             }
         }
         Ok(best)
@@ -98,7 +127,8 @@ impl<'a, R: PrimInt> Search<'a, R> {
         let n = self.structure.levels.len();
         let level = self.below_n(n) as u32;
         let axis = self.structure.levels[level as usize].axis;
-        let mut keys: Vec<i32> = self.by_axis[axis].iter().map(|&l| i32::from(from.of_level[l as usize]) * STEP).collect();
+        let mut keys: Vec<i32> =
+            self.by_axis[axis].iter().map(|&l| i32::from(from.of_level[l as usize]) * STEP).collect();
         let kind = self.random.next_u64() % 8;
         let (reach, dir) = (1 + self.below_n(3) as i32, self.random.next_u64() % 4);
         let slot = |l: u32| self.by_axis[axis].binary_search(&l).unwrap_or(0);
@@ -110,8 +140,10 @@ impl<'a, R: PrimInt> Search<'a, R> {
         } else {
             let k = keys[slot(level)];
             let to = match dir {
-                0 => k + STEP * reach, 1 => k - STEP * reach,
-                2 => k + STEP * reach - STEP / 2, _ => k - STEP * reach + STEP / 2,
+                0 => k + STEP * reach,
+                1 => k - STEP * reach,
+                2 => k + STEP * reach - STEP / 2,
+                _ => k - STEP * reach + STEP / 2,
             };
             keys[slot(level)] = to;
             let up = to > k;
@@ -122,8 +154,20 @@ impl<'a, R: PrimInt> Search<'a, R> {
                 let list = if up { &self.above[l as usize] } else { &self.below[l as usize] };
                 for &m in list {
                     let s = slot(m);
-                    if up && keys[s] <= here { if !push { return None } keys[s] = here + 1; stack.push(m); }
-                    if !up && keys[s] >= here { if !push { return None } keys[s] = here - 1; stack.push(m); }
+                    if up && keys[s] <= here {
+                        if !push {
+                            return None;
+                        }
+                        keys[s] = here + 1;
+                        stack.push(m);
+                    }
+                    if !up && keys[s] >= here {
+                        if !push {
+                            return None;
+                        }
+                        keys[s] = here - 1;
+                        stack.push(m);
+                    }
                 }
             }
         }
