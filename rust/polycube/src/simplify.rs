@@ -1,9 +1,9 @@
 //! The whole method: read the structure, align it, morph the mesh onto the result, and say what happened.
 
-use crate::align::{self, Alignment, Round, SolverKind, Strategy};
+use crate::align::{self, Alignment, Effort, Round, SolverKind, Strategy, TradeOff};
 use crate::context::Context;
 use crate::error::{Error, ErrorKind, Result};
-use crate::layout::Counts;
+use crate::layout::{Counts, Objective};
 use crate::map::{Distortion, Flipped, distortion, flipped, morph};
 use crate::mesh::{Mesh, Point};
 use crate::structure::{Deviation, Polycube, Tolerance, Violation};
@@ -32,6 +32,10 @@ pub struct Options {
     pub lambda_min: f64,
     /// Who solves the integer problems.
     pub solver: SolverKind,
+    /// Which number shall be small; by default padded blocks for a volume and patches for a surface.
+    pub objective: Option<Objective>,
+    /// How long the strategy `best` searches.
+    pub effort: Effort,
     /// How far the input may be from a polycube.
     pub tolerance: Tolerance,
 }
@@ -64,6 +68,8 @@ pub struct Report {
     pub after: Option<Counts>,
     /// The rounds of Algorithm 1.
     pub rounds: Vec<Round>,
+    /// The trade-off between the count and displacement that the strategy `best` met, from the fewest blocks on.
+    pub front: Vec<TradeOff>,
     /// Time spent, in seconds.
     pub seconds: Seconds,
     /// The farthest that a corner moved, in units of the input polycube.
@@ -123,8 +129,14 @@ pub fn simplify(input: &Input, options: &Options, context: &Context) -> Result<S
     let polycube = read_structure(input, &options.tolerance)?;
     let scale = options.scale.unwrap_or_else(|| default_scale(&polycube, input.polycube));
     let structured = start.elapsed().as_secs_f64();
-    let settings =
-        align::Options { strategy: options.strategy, scale, lambda_min: options.lambda_min, solver: options.solver };
+    let settings = align::Options {
+        strategy: options.strategy,
+        scale,
+        lambda_min: options.lambda_min,
+        solver: options.solver,
+        objective: options.objective.unwrap_or_else(|| default_objective(input.polycube)),
+        effort: options.effort,
+    };
     let aligning = context.stage("align", 0.1, 0.5);
     let alignment = align::align(&polycube.structure, &polycube.placement, &settings, &aligning)?;
     let aligned = start.elapsed().as_secs_f64();
@@ -160,6 +172,10 @@ fn first_of(violations: Vec<Violation>) -> Error {
         error.message = format!("{}; {others} more like it, see `polycube validate`", error.message);
     }
     error
+}
+
+fn default_objective(_mesh: &Mesh) -> Objective {
+    Objective::BlocksPadded
 }
 
 /// 1 for a polycube that lies on the lattice already, else one step per mean mesh edge.
@@ -213,6 +229,7 @@ fn report(polycube: &Polycube, alignment: &Alignment, strategy: Strategy, scale:
         before: alignment.before,
         after: alignment.after,
         rounds: alignment.rounds.clone(),
+        front: alignment.front.clone(),
         seconds: Seconds::default(),
         max_displacement: max_displacement(polycube, &alignment.levels, scale),
         flipped_elements: 0,

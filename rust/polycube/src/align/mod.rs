@@ -3,28 +3,33 @@
 //! [`align`] is the way in. Algorithm 1 pairs corners ([`neighbours`]), turns the pairs and the distances to keep
 //! into an integer [`problem`], [`solve`]s it, checks the result exactly, and repeats.
 
+mod anneal;
+mod best;
 mod classes;
 mod constraints;
+mod front;
+mod greedy;
+mod moves;
 pub mod neighbours;
 mod order;
 mod pairs;
 mod paper;
 pub mod problem;
-pub mod ranks;
+mod ranks;
 mod relax;
-#[allow(missing_docs)]
-pub mod search;
+
 mod separate;
 pub mod solve;
 
+pub use best::Effort;
 pub use paper::Round;
 
 use crate::context::Context;
 use crate::error::{Error, ErrorKind, Result};
-use crate::layout::{Counts, count};
+use crate::layout::{Counts, Objective, count};
 use crate::structure::{Arrangement, Conflict, Placement, Structure};
 use order::place_in_order;
-use paper::Settings;
+use paper::{Outcome, Settings};
 use problem::Problem;
 use solve::{ExactSolver, LinearSolver, Solver};
 
@@ -35,8 +40,10 @@ pub enum Strategy {
     /// Round every level to the lattice, as standard pipelines do. May break the polycube.
     Naive,
     /// Algorithm 1 of the paper.
-    #[default]
     Paper,
+    /// A search for the smallest count, from the results of Algorithm 1 and of greedy merging; never worse than either.
+    #[default]
+    Best,
 }
 
 /// Who solves the integer problems.
@@ -61,11 +68,22 @@ pub struct Options {
     pub lambda_min: f64,
     /// Who solves the integer problems.
     pub solver: SolverKind,
+    /// Which number shall be small.
+    pub objective: Objective,
+    /// How long [`Strategy::Best`] searches.
+    pub effort: Effort,
 }
 
 impl Default for Options {
     fn default() -> Self {
-        Self { strategy: Strategy::default(), scale: 1.0, lambda_min: 0.0, solver: SolverKind::default() }
+        Self {
+            strategy: Strategy::default(),
+            scale: 1.0,
+            lambda_min: 0.0,
+            solver: SolverKind::default(),
+            objective: Objective::default(),
+            effort: Effort::default(),
+        }
     }
 }
 
@@ -82,6 +100,19 @@ pub struct Alignment {
     pub rounds: Vec<Round>,
     /// What a naive rounding broke; empty for every other strategy.
     pub broken: Vec<Conflict>,
+    /// The trade-off between few blocks and little displacement, from the fewest blocks on; only from [`Strategy::Best`].
+    pub front: Vec<TradeOff>,
+}
+
+/// One way to trade blocks for displacement.
+#[derive(Clone, Debug, PartialEq, serde::Serialize)]
+pub struct TradeOff {
+    /// What the objective counts.
+    pub count: usize,
+    /// Root mean square of the corners' displacement, in units of the input, at the finest lattice.
+    pub displacement: f64,
+    /// The number of every level's plane, from 1.
+    pub order: Vec<u16>,
 }
 
 /// Moves the levels of a valid polycube to integers so that they align.
@@ -104,6 +135,7 @@ pub fn align(structure: &Structure, input: &[f64], options: &Options, context: &
     match options.strategy {
         Strategy::Naive => Ok(naive(structure, &targets, before)),
         Strategy::Paper => simplify(structure, input, &targets, before, options, context),
+        Strategy::Best => coarsest(structure, input, &targets, before, options, context),
     }
 }
 
@@ -125,7 +157,7 @@ fn naive(structure: &Structure, targets: &[f64], before: Counts) -> Alignment {
     let arrangement = Arrangement::new(structure, &placement);
     let broken = arrangement.conflicts();
     let after = broken.is_empty().then(|| count(&arrangement));
-    Alignment { levels: to_integers(&placement), before, after, rounds: Vec::new(), broken }
+    Alignment { levels: to_integers(&placement), before, after, rounds: Vec::new(), broken, front: Vec::new() }
 }
 
 /// Algorithm 1 from λ = 1 again and again until it finds nothing more, so that a second call changes nothing.
@@ -137,29 +169,81 @@ fn simplify(
     options: &Options,
     context: &Context,
 ) -> Result<Alignment> {
-    let solver: &dyn Solver = match options.solver {
-        SolverKind::Exact => &ExactSolver::default(),
-        SolverKind::Linear => &LinearSolver::default(),
-    };
+    let solver = solver(options.solver);
     let oblique_planes = options.solver == SolverKind::Linear;
-    let settings = Settings { lambda_min: options.lambda_min, solver, oblique_planes };
-    let mut best = place_in_order(structure, input, targets, solver, context)?;
+    let settings = Settings { lambda_min: options.lambda_min, solver: &*solver, oblique_planes };
+    let mut best = place_in_order(structure, input, targets, &*solver, context)?;
     let mut after = before;
     let mut rounds = Vec::new();
     let mut from = input.to_vec();
     loop {
         let (found, counts, steps) = improve(structure, &from, input, &settings, context)?;
-        if rounds.is_empty() || counts.blocks_padded < after.blocks_padded {
+        let improved = counts.of(options.objective) < after.of(options.objective);
+        if rounds.is_empty() || improved {
             rounds.extend(steps);
         }
-        if counts.blocks_padded >= after.blocks_padded {
+        if !improved {
             break;
         }
-        best = place_in_order(structure, &found, targets, solver, context)?;
+        best = place_in_order(structure, &found, targets, &*solver, context)?;
         from.clone_from(&best);
         after = counts;
     }
-    Ok(Alignment { levels: to_integers(&best), before, after: Some(after), rounds, broken: Vec::new() })
+    let levels = to_integers(&best);
+    Ok(Alignment { levels, before, after: Some(after), rounds, broken: Vec::new(), front: Vec::new() })
+}
+
+fn solver(kind: SolverKind) -> Box<dyn Solver> {
+    match kind {
+        SolverKind::Exact => Box::new(ExactSolver::default()),
+        SolverKind::Linear => Box::new(LinearSolver::default()),
+    }
+}
+
+/// Algorithm 1, then the search.
+fn coarsest(
+    structure: &Structure,
+    input: &[f64],
+    targets: &[f64],
+    before: Counts,
+    options: &Options,
+    context: &Context,
+) -> Result<Alignment> {
+    let paper = simplify(structure, input, targets, before, options, &context.stage("align", 0.0, 0.2))?;
+    if !best::is_searchable(structure) {
+        return Ok(paper);
+    }
+    let start: Placement = paper.levels.iter().map(|&x| x as f64).collect();
+    let searching = context.stage("search", 0.2, 1.0);
+    let found = best::search(structure, input, &start, options.objective, &options.effort, &searching)?;
+    let solver = solver(options.solver);
+    let order = relaxed(structure, input, &found.placement, options.objective, &*solver, context)?;
+    let levels = place_in_order(structure, &order, targets, &*solver, context)?;
+    let after = count(&Arrangement::new(structure, &levels));
+    let corners = structure.corners.len() as f64;
+    let trade_off = |s: &anneal::State| TradeOff {
+        count: s.count,
+        displacement: (s.shape_cost() / corners).sqrt(),
+        order: s.ranks.of_level.clone(),
+    };
+    let front = found.front.states().map(trade_off).collect();
+    Ok(Alignment { levels: to_integers(&levels), after: Some(after), front, ..paper })
+}
+
+/// The placement with the alignments of `found` nearest to the input, if it counts no more; else `found`.
+fn relaxed(
+    structure: &Structure,
+    input: &[f64],
+    found: &[f64],
+    objective: Objective,
+    solver: &dyn Solver,
+    context: &Context,
+) -> Result<Placement> {
+    let fine = Unit::of(structure, input).apply(structure, input);
+    let start = place_in_order(structure, found, &fine, solver, context)?;
+    let near = Outcome::of(structure, start.clone()).settle(structure, &fine, solver, context)?;
+    let counted = |placement: &[f64]| count(&Arrangement::new(structure, placement)).of(objective);
+    Ok(if counted(&near) <= counted(&start) { near } else { start })
 }
 
 /// One run of Algorithm 1 on `from`, settled near `from` or, if that is as coarse, near `input`.
