@@ -123,6 +123,8 @@ fn job(args: &Args, folder: &Path) -> simplify::Args {
         objective: None,
         steps: polycube::align::Effort::default().steps_per_level,
         time_limit: None,
+        simplicity: 1.0,
+        max_displacement: None,
         solver: SolverArg::default(),
         format: None,
         quiet: args.quiet,

@@ -73,6 +73,14 @@ pub struct Args {
     #[arg(long, value_name = "N", default_value_t = Effort::default().steps_per_level)]
     pub steps: u32,
 
+    /// Trade blocks for closeness: from 1, the fewest blocks that `best` finds, to 0, the least displacement
+    #[arg(long, value_name = "S", value_parser = fraction, default_value_t = 1.0)]
+    pub simplicity: f64,
+
+    /// The farthest that `best` may move a corner, in units of the polycube [default: no limit]
+    #[arg(long, value_name = "D", value_parser = positive)]
+    pub max_displacement: Option<f64>,
+
     /// Stop the search after this many seconds with the best found; the result may then differ from run to run
     #[arg(long, value_name = "SECONDS", value_parser = positive)]
     pub time_limit: Option<f64>,
@@ -167,6 +175,8 @@ impl Args {
                 steps_per_level: self.steps,
                 time_limit: self.time_limit.map(std::time::Duration::from_secs_f64),
             },
+            simplicity: Some(self.simplicity),
+            max_displacement: self.max_displacement,
             tolerance: self.mesh.tolerance.get(),
         }
     }

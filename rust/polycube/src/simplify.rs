@@ -36,6 +36,11 @@ pub struct Options {
     pub objective: Option<Objective>,
     /// How long the strategy `best` searches.
     pub effort: Effort,
+    /// How far the strategy `best` goes on the front between the fewest blocks (1, the default) and the least
+    /// displacement (0).
+    pub simplicity: Option<f64>,
+    /// The farthest that the strategy `best` may move a corner, in units of the polycube.
+    pub max_displacement: Option<f64>,
     /// How far the input may be from a polycube.
     pub tolerance: Tolerance,
 }
@@ -136,11 +141,19 @@ pub fn simplify(input: &Input, options: &Options, context: &Context) -> Result<S
         solver: options.solver,
         objective: options.objective.unwrap_or_else(|| default_objective(input.polycube)),
         effort: options.effort,
+        simplicity: options.simplicity.unwrap_or(1.0),
+        max_displacement: options.max_displacement,
     };
     let aligning = context.stage("align", 0.1, 0.5);
     let alignment = align::align(&polycube.structure, &polycube.placement, &settings, &aligning)?;
     let aligned = start.elapsed().as_secs_f64();
     let mut report = report(&polycube, &alignment, options.strategy, scale);
+    if let Some(limit) = options.max_displacement.filter(|&l| l < report.max_displacement) {
+        let least = report.max_displacement;
+        report
+            .notes
+            .push(format!("no result found moves the corners by {limit} or less; this one moves them by {least}"));
+    }
     let mut result = None;
     if report.valid {
         let mesh = fit(&polycube, input.polycube, &alignment.levels, scale, &context.stage("morph", 0.5, 1.0))?;
@@ -242,11 +255,7 @@ fn report(polycube: &Polycube, alignment: &Alignment, strategy: Strategy, scale:
 
 fn max_displacement(polycube: &Polycube, levels: &[i64], scale: f64) -> f64 {
     let after: Vec<f64> = levels.iter().map(|&x| x as f64 / scale).collect();
-    let moved = |c: u32| {
-        let [from, to] = [&polycube.placement, &after].map(|p| Point::from(polycube.structure.position(c, p)));
-        (to - from).norm()
-    };
-    (0..polycube.structure.corners.len() as u32).map(moved).fold(0.0, f64::max)
+    polycube.structure.max_displacement(&polycube.placement, &after)
 }
 
 /// Counts what the morph turned over and measures the map before and after.

@@ -6,11 +6,13 @@
 mod anneal;
 mod best;
 mod classes;
+mod coarsest;
 mod constraints;
 mod front;
 mod greedy;
 mod moves;
 pub mod neighbours;
+mod options;
 mod order;
 mod pairs;
 mod paper;
@@ -18,74 +20,20 @@ pub mod problem;
 mod ranks;
 mod relax;
 
+mod restart;
 mod separate;
 pub mod solve;
+mod unit;
 
 pub use best::Effort;
+pub use options::{Options, SolverKind, Strategy};
 pub use paper::Round;
 
 use crate::context::Context;
 use crate::error::{Error, ErrorKind, Result};
-use crate::layout::{Counts, Objective, count};
+use crate::layout::{Counts, count};
 use crate::structure::{Arrangement, Conflict, Placement, Structure};
-use order::place_in_order;
-use paper::{Outcome, Settings};
 use problem::Problem;
-use solve::{ExactSolver, LinearSolver, Solver};
-
-/// How the levels find their places.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, serde::Serialize, serde::Deserialize)]
-#[serde(rename_all = "snake_case")]
-pub enum Strategy {
-    /// Round every level to the lattice, as standard pipelines do. May break the polycube.
-    Naive,
-    /// Algorithm 1 of the paper.
-    Paper,
-    /// A search for the smallest count, from the results of Algorithm 1 and of greedy merging; never worse than either.
-    #[default]
-    Best,
-}
-
-/// Who solves the integer problems.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, serde::Serialize, serde::Deserialize)]
-#[serde(rename_all = "snake_case")]
-pub enum SolverKind {
-    /// Minimum cuts in integer arithmetic; corners that attract each other are kept apart when they would meet.
-    #[default]
-    Exact,
-    /// Linear programs through `good_lp`, with the separation planes as printed in Eq. 4. Slow.
-    Linear,
-}
-
-/// What [`align`] shall do.
-#[derive(Clone, Copy, Debug, PartialEq, serde::Serialize)]
-pub struct Options {
-    /// How the levels find their places.
-    pub strategy: Strategy,
-    /// Lattice steps per unit of the input, above 0.
-    pub scale: f64,
-    /// Algorithm 1 stops before λ falls below this: 0 (the default) for the coarsest result, 1 for one round.
-    pub lambda_min: f64,
-    /// Who solves the integer problems.
-    pub solver: SolverKind,
-    /// Which number shall be small.
-    pub objective: Objective,
-    /// How long [`Strategy::Best`] searches.
-    pub effort: Effort,
-}
-
-impl Default for Options {
-    fn default() -> Self {
-        Self {
-            strategy: Strategy::default(),
-            scale: 1.0,
-            lambda_min: 0.0,
-            solver: SolverKind::default(),
-            objective: Objective::default(),
-            effort: Effort::default(),
-        }
-    }
-}
 
 /// Levels on the lattice, and how they got there.
 #[derive(Clone, Debug, PartialEq)]
@@ -134,8 +82,8 @@ pub fn align(structure: &Structure, input: &[f64], options: &Options, context: &
     let before = count(&arrangement);
     match options.strategy {
         Strategy::Naive => Ok(naive(structure, &targets, before)),
-        Strategy::Paper => simplify(structure, input, &targets, before, options, context),
-        Strategy::Best => coarsest(structure, input, &targets, before, options, context),
+        Strategy::Paper => restart::simplify(structure, input, &targets, before, options, context),
+        Strategy::Best => coarsest::coarsest(structure, input, &targets, before, options, context),
     }
 }
 
@@ -158,141 +106,6 @@ fn naive(structure: &Structure, targets: &[f64], before: Counts) -> Alignment {
     let broken = arrangement.conflicts();
     let after = broken.is_empty().then(|| count(&arrangement));
     Alignment { levels: to_integers(&placement), before, after, rounds: Vec::new(), broken, front: Vec::new() }
-}
-
-/// Algorithm 1 from λ = 1 again and again until it finds nothing more, so that a second call changes nothing.
-fn simplify(
-    structure: &Structure,
-    input: &[f64],
-    targets: &[f64],
-    before: Counts,
-    options: &Options,
-    context: &Context,
-) -> Result<Alignment> {
-    let solver = solver(options.solver);
-    let oblique_planes = options.solver == SolverKind::Linear;
-    let settings = Settings { lambda_min: options.lambda_min, solver: &*solver, oblique_planes };
-    let mut best = place_in_order(structure, input, targets, &*solver, context)?;
-    let mut after = before;
-    let mut rounds = Vec::new();
-    let mut from = input.to_vec();
-    loop {
-        let (found, counts, steps) = improve(structure, &from, input, &settings, context)?;
-        let improved = counts.of(options.objective) < after.of(options.objective);
-        if rounds.is_empty() || improved {
-            rounds.extend(steps);
-        }
-        if !improved {
-            break;
-        }
-        best = place_in_order(structure, &found, targets, &*solver, context)?;
-        from.clone_from(&best);
-        after = counts;
-    }
-    let levels = to_integers(&best);
-    Ok(Alignment { levels, before, after: Some(after), rounds, broken: Vec::new(), front: Vec::new() })
-}
-
-fn solver(kind: SolverKind) -> Box<dyn Solver> {
-    match kind {
-        SolverKind::Exact => Box::new(ExactSolver::default()),
-        SolverKind::Linear => Box::new(LinearSolver::default()),
-    }
-}
-
-/// Algorithm 1, then the search.
-fn coarsest(
-    structure: &Structure,
-    input: &[f64],
-    targets: &[f64],
-    before: Counts,
-    options: &Options,
-    context: &Context,
-) -> Result<Alignment> {
-    let paper = simplify(structure, input, targets, before, options, &context.stage("align", 0.0, 0.2))?;
-    if !best::is_searchable(structure) {
-        return Ok(paper);
-    }
-    let start: Placement = paper.levels.iter().map(|&x| x as f64).collect();
-    let searching = context.stage("search", 0.2, 1.0);
-    let found = best::search(structure, input, &start, options.objective, &options.effort, &searching)?;
-    let solver = solver(options.solver);
-    let order = relaxed(structure, input, &found.placement, options.objective, &*solver, context)?;
-    let levels = place_in_order(structure, &order, targets, &*solver, context)?;
-    let after = count(&Arrangement::new(structure, &levels));
-    let corners = structure.corners.len() as f64;
-    let trade_off = |s: &anneal::State| TradeOff {
-        count: s.count,
-        displacement: (s.shape_cost() / corners).sqrt(),
-        order: s.ranks.of_level.clone(),
-    };
-    let front = found.front.states().map(trade_off).collect();
-    Ok(Alignment { levels: to_integers(&levels), after: Some(after), front, ..paper })
-}
-
-/// The placement with the alignments of `found` nearest to the input, if it counts no more; else `found`.
-fn relaxed(
-    structure: &Structure,
-    input: &[f64],
-    found: &[f64],
-    objective: Objective,
-    solver: &dyn Solver,
-    context: &Context,
-) -> Result<Placement> {
-    let fine = Unit::of(structure, input).apply(structure, input);
-    let start = place_in_order(structure, found, &fine, solver, context)?;
-    let near = Outcome::of(structure, start.clone()).settle(structure, &fine, solver, context)?;
-    let counted = |placement: &[f64]| count(&Arrangement::new(structure, placement)).of(objective);
-    Ok(if counted(&near) <= counted(&start) { near } else { start })
-}
-
-/// One run of Algorithm 1 on `from`, settled near `from` or, if that is as coarse, near `input`.
-fn improve(
-    structure: &Structure,
-    from: &[f64],
-    input: &[f64],
-    settings: &Settings,
-    context: &Context,
-) -> Result<(Placement, Counts, Vec<Round>)> {
-    let unit = Unit::of(structure, from);
-    let own = unit.apply(structure, from);
-    let outcome = paper::run(structure, &own, settings, context)?;
-    let near = outcome.settle(structure, &own, settings.solver, context)?;
-    let counts = count(&Arrangement::new(structure, &near));
-    let original = Unit::of(structure, input).apply(structure, input);
-    let faithful = outcome.settle(structure, &original, settings.solver, context)?;
-    let faithful_counts = count(&Arrangement::new(structure, &faithful));
-    let (placement, counts) = if faithful_counts.blocks_padded <= counts.blocks_padded {
-        (faithful, faithful_counts)
-    } else {
-        (near, counts)
-    };
-    Ok((placement, counts, outcome.rounds))
-}
-
-/// The lattice that Algorithm 1 works on, whatever the scale of the result: its steps are half the
-/// shortest edge, so that rounding alone collapses nothing.
-struct Unit {
-    origin: [f64; 3],
-    scale: f64,
-}
-
-impl Unit {
-    const STEPS_PER_SHORTEST_EDGE: f64 = 2.0;
-
-    fn of(structure: &Structure, placement: &[f64]) -> Self {
-        let along = |axis: usize| structure.levels.iter().zip(placement).filter(move |(l, _)| l.axis == axis);
-        let origin: [f64; 3] = std::array::from_fn(|a| along(a).map(|(_, &x)| x).fold(f64::INFINITY, f64::min));
-        let size = |a: usize| along(a).map(|(_, &x)| x - origin[a]).fold(0.0, f64::max);
-        let largest = size(0).max(size(1)).max(size(2));
-        let finest = Problem::MAX_LEVEL as f64 / 2.0 / largest;
-        Self { origin, scale: (Self::STEPS_PER_SHORTEST_EDGE / structure.shortest_edge(placement)).min(finest) }
-    }
-
-    fn apply(&self, structure: &Structure, placement: &[f64]) -> Placement {
-        let own = structure.levels.iter().zip(placement);
-        own.map(|(l, x)| (x - self.origin[l.axis]) * self.scale).collect()
-    }
 }
 
 fn to_integers(placement: &[f64]) -> Vec<i64> {
