@@ -135,7 +135,7 @@ fn simplify(
     context: &Context,
 ) -> Result<Alignment> {
     let solver: &dyn Solver = match options.solver {
-        SolverKind::Exact => &ExactSolver::default(),
+        SolverKind::Exact => &ExactSolver,
         SolverKind::Linear => &LinearSolver::default(),
     };
     let oblique_planes = options.solver == SolverKind::Linear;
