@@ -87,7 +87,7 @@ def solvers(table, release):
 
     for variables in VARIABLES:
         ours = theirs = 0.0
-        for file in write_random(5, variables, 1):
+        for file in write_random(5, variables, 0, 1):
             solved = subprocess.check_output([release / "examples" / "solve_problem", "--exact-only", str(file)])
             exact = json.loads(solved)["exact"]
             cost, seconds, _ = scip(json.loads(file.read_text()), 60.0)[:3]

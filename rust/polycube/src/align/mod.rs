@@ -10,7 +10,10 @@ mod order;
 mod pairs;
 mod paper;
 pub mod problem;
+pub mod ranks;
 mod relax;
+#[allow(missing_docs)]
+pub mod search;
 mod separate;
 pub mod solve;
 

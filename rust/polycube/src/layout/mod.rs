@@ -2,10 +2,12 @@
 
 mod complex;
 mod lattice;
+mod rows;
 mod separatrices;
 
 pub use complex::{Complex, Counts};
 pub use lattice::Lattice;
+pub use rows::Rows;
 
 use crate::structure::Arrangement;
 
