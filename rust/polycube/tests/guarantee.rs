@@ -13,7 +13,8 @@ use proptest::prelude::*;
 
 /// A random polycube; the seeds run through few and many boxes, dense and sparse.
 fn sample(seed: u64, kind: CellKind) -> Mesh {
-    coarse(&random_polycube(seed, 1 + seed as usize % 12, 4 + seed as i64 % 13).unwrap(), kind)
+    let voxels = random_polycube(seed, 1 + seed as usize % 12, 4 + seed as i64 % 13);
+    coarse(&voxels.expect("a random polycube"), kind)
 }
 
 /// Simplifies and checks the result on the lattice.
@@ -37,7 +38,8 @@ fn assert_good(result: &Simplified, what: &str) {
 
 /// The file of the result.
 fn bytes(result: &Simplified) -> Vec<u8> {
-    write_bytes(Format::Vtk, result.polycube.as_ref().unwrap(), &[]).unwrap()
+    let mesh = result.polycube.as_ref().expect("a valid result has a mesh");
+    write_bytes(Format::Vtk, mesh, &[]).expect("the mesh can be written")
 }
 
 #[test]

@@ -24,23 +24,22 @@ pub fn merge<R: PrimInt>(
     let pairs = levels.clone().flat_map(|a| levels.clone().map(move |b| (a, b))).filter(|&(a, b)| same(a, b));
     let mut promises: Vec<(i64, (u32, u32))> = pairs.map(|p| (i64::MAX, p)).collect();
     loop {
-        let mut best: Option<(i64, usize, State)> = None;
+        let mut best: Option<(i64, State)> = None;
         promises.sort_by_key(|p| std::cmp::Reverse(p.0));
-        for i in 0..promises.len() {
-            if best.as_ref().is_some_and(|b| b.0 >= promises[i].0) {
+        for (saved, (level, onto)) in &mut promises {
+            if best.as_ref().is_some_and(|b| b.0 >= *saved) {
                 break;
             }
             context.tick(0.0)?;
-            let (level, onto) = promises[i].1;
-            let next = moves.align(&now.ranks, level, onto).and_then(|ranks| chain.state(ranks));
-            promises[i].0 = next.as_ref().map_or(i64::MIN, |s| now.count as i64 - s.count as i64);
+            let next = moves.align(&now.ranks, *level, *onto).and_then(|ranks| chain.state(ranks));
+            *saved = next.as_ref().map_or(i64::MIN, |s| now.count as i64 - s.count as i64);
             if let Some(state) = next
-                && promises[i].0 > best.as_ref().map_or(0, |b| b.0)
+                && *saved > best.as_ref().map_or(0, |b| b.0)
             {
-                best = Some((promises[i].0, i, state));
+                best = Some((*saved, state));
             }
         }
-        let Some((_, _, state)) = best else { return Ok(now) };
+        let Some((_, state)) = best else { return Ok(now) };
         now = state;
         // A merge may make possible what was not: ask those again that were impossible or useless.
         promises.iter_mut().filter(|p| p.0 <= 0).for_each(|p| p.0 = 1);

@@ -68,7 +68,7 @@ impl SolverKind {
     /// A solver of this kind.
     pub fn solver(self) -> Box<dyn Solver> {
         match self {
-            SolverKind::Exact => Box::new(ExactSolver::default()),
+            SolverKind::Exact => Box::new(ExactSolver),
             SolverKind::Linear => Box::new(LinearSolver::default()),
         }
     }

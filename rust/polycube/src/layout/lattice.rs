@@ -48,6 +48,11 @@ impl Lattice {
         self.solid.len()
     }
 
+    /// Whether there is no cell; false, as the empty layers are always there.
+    pub fn is_empty(&self) -> bool {
+        self.solid.is_empty()
+    }
+
     /// Whether cell `cell` lies inside the polycube.
     pub fn is_solid(&self, cell: usize) -> bool {
         self.solid[cell]

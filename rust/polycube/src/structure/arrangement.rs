@@ -1,9 +1,8 @@
 //! A structure put in place: where its facets and edges lie, what a ray meets, and where the surface touches itself.
 
+use super::boxes::Boxes;
 use super::rectangles::rectangles;
 use super::{Edge, Structure};
-use rstar::primitives::{GeomWithData, Rectangle};
-use rstar::{AABB, RTree};
 
 /// A box of the lattice by the levels of its sides; `low` and `high` are equal along an axis where it is flat.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -25,8 +24,6 @@ pub struct Conflict {
     pub point: [f64; 3],
 }
 
-type Item = GeomWithData<Rectangle<[f64; 3]>, u32>;
-
 /// A rectangle of a facet.
 struct Tile {
     facet: u32,
@@ -40,8 +37,8 @@ pub struct Arrangement<'a> {
     structure: &'a Structure,
     placement: Vec<f64>,
     tiles: Vec<Tile>,
-    tile_index: RTree<Item>,
-    edge_index: RTree<Item>,
+    tile_index: Boxes,
+    edge_index: Boxes,
     folded: Vec<u32>,
 }
 
@@ -58,13 +55,9 @@ impl<'a> Arrangement<'a> {
                 None => folded.push(facet),
             }
         }
-        let item = |levels: &LevelBox, i: usize| {
-            let (low, high) = structure.extent(levels, &placement);
-            Item::new(Rectangle::from_corners(low, high), i as u32)
-        };
-        let tile_index = RTree::bulk_load(tiles.iter().enumerate().map(|(i, t)| item(&t.levels, i)).collect());
-        let edges = structure.edges.iter().map(|e| structure.edge_box(e)).enumerate();
-        let edge_index = RTree::bulk_load(edges.map(|(i, b)| item(&b, i)).collect());
+        let extent = |levels: &LevelBox| structure.extent(levels, &placement);
+        let tile_index = Boxes::new(tiles.iter().map(|t| extent(&t.levels)));
+        let edge_index = Boxes::new(structure.edges.iter().map(|e| extent(&structure.edge_box(e))));
         Self { structure, placement, tiles, tile_index, edge_index, folded }
     }
 
@@ -106,7 +99,8 @@ impl<'a> Arrangement<'a> {
 
     /// Whether `point` lies inside or on the polycube.
     pub fn contains(&self, point: [f64; 3]) -> bool {
-        let on_surface = self.tile_index.locate_in_envelope_intersecting(AABB::from_point(point)).next().is_some();
+        let mut on_surface = false;
+        self.tile_index.meeting(point, point, |_| on_surface = true);
         on_surface || self.winding(point, |_| true) != 0
     }
 
@@ -128,8 +122,8 @@ impl<'a> Arrangement<'a> {
         } else {
             low[axis] = f64::MIN;
         }
-        let envelope = AABB::from_corners(low, high);
-        let items: Vec<u32> = self.tile_index.locate_in_envelope_intersecting(envelope).map(|i| i.data).collect();
+        let mut items = Vec::new();
+        self.tile_index.meeting(low, high, |i| items.push(i));
         items.into_iter().map(|i| &self.tiles[i as usize])
     }
 
@@ -196,19 +190,17 @@ impl<'a> Arrangement<'a> {
         Conflict { facets: [facet; 2], boxes: None, point: self.structure.position(corner, &self.placement) }
     }
 
-    fn edge_conflicts(&self, i: u32, edge: &Edge) -> Vec<Conflict> {
-        let levels = self.structure.edge_box(edge);
-        let (low, high) = self.structure.extent(&levels, &self.placement);
-        let envelope = AABB::from_corners(low, high);
-        let sorted = |tree: &RTree<Item>| {
-            let mut found: Vec<u32> = tree.locate_in_envelope_intersecting(envelope).map(|i| i.data).collect();
-            found.sort_unstable();
-            found
-        };
-        let edges =
-            sorted(&self.edge_index).into_iter().filter(|&j| j > i).filter_map(|j| self.edge_meets_edge(edge, j));
-        let tiles = sorted(&self.tile_index).into_iter().filter_map(|t| self.edge_meets_tile(edge, t));
-        edges.chain(tiles).collect()
+    fn edge_conflicts(&self, i: u32, edge: &Edge) -> impl Iterator<Item = Conflict> {
+        let (low, high) = self.structure.extent(&self.structure.edge_box(edge), &self.placement);
+        let (mut edges, mut tiles) = (Vec::new(), Vec::new());
+        self.edge_index.meeting(low, high, |j| {
+            let conflict = if j > i { self.edge_meets_edge(edge, j) } else { None };
+            edges.extend(conflict.map(|c| (j, c)));
+        });
+        self.tile_index.meeting(low, high, |t| tiles.extend(self.edge_meets_tile(edge, t).map(|c| (t, c))));
+        edges.sort_unstable_by_key(|e| e.0);
+        tiles.sort_unstable_by_key(|t| t.0);
+        edges.into_iter().chain(tiles).map(|(_, conflict)| conflict)
     }
 
     /// Edges may meet in a common corner only.

@@ -34,7 +34,7 @@ impl Label {
 
     /// +1 or −1 along [`axis`](Self::axis).
     pub fn sign(self) -> i8 {
-        if self.0 % 2 == 0 { 1 } else { -1 }
+        if self.0.is_multiple_of(2) { 1 } else { -1 }
     }
 
     /// The label that looks the other way.

@@ -4,6 +4,7 @@
 //! all its corners is a [`Placement`]: one number per level. [`Polycube`] ties a structure to a mesh.
 
 mod arrangement;
+mod boxes;
 mod extract;
 mod label;
 mod polycube;

@@ -133,9 +133,12 @@ fn label_faces(
     given: Option<&[i8]>,
     tolerance: &Tolerance,
 ) -> Result<(Vec<Label>, f64), Vec<Violation>> {
+    let degrees = |cosine: f64| cosine.clamp(-1.0, 1.0).acos().to_degrees();
+    // Faces well within the tolerance need no arc cosine.
+    let least = tolerance.degrees.to_radians().cos() + 1e-6;
     let mut labels = Vec::with_capacity(surface.faces().len());
     let mut violations = Vec::new();
-    let mut worst = 0.0_f64;
+    let mut worst = 1.0_f64;
     for (face, f) in (0..).zip(surface.faces()) {
         let normal = area_vector(points, f);
         let own = given.and_then(|g| g.get(face as usize)).and_then(|&l| Label::new(l));
@@ -149,11 +152,10 @@ fn label_faces(
             continue;
         }
         let cosine = f64::from(label.sign()) * normal[label.axis()] / normal.norm();
-        let degrees = cosine.clamp(-1.0, 1.0).acos().to_degrees();
-        worst = worst.max(degrees);
-        if own.is_none() && degrees > tolerance.degrees {
-            violations.push(Violation::SkewFace { face, degrees });
+        worst = worst.min(cosine);
+        if own.is_none() && cosine < least && degrees(cosine) > tolerance.degrees {
+            violations.push(Violation::SkewFace { face, degrees: degrees(cosine) });
         }
     }
-    if violations.is_empty() { Ok((labels, worst)) } else { Err(violations) }
+    if violations.is_empty() { Ok((labels, degrees(worst))) } else { Err(violations) }
 }

@@ -3,23 +3,26 @@
 use super::arrangement::LevelBox;
 use super::{Facet, Structure};
 
+/// A coordinate and the level it belongs to.
+type At = (f64, u32);
+
 /// A side of the facet across the sweep: where it lies, which part it covers, and what it adds to the winding number.
 #[derive(Clone, Copy)]
 struct Event {
-    at: (f64, u32),
-    from: (f64, u32),
-    to: (f64, u32),
+    at: At,
+    from: At,
+    to: At,
     winding: i32,
 }
 
 /// A place along the sweep line where the winding number changes.
-type Step = ((f64, u32), i32);
+type Step = (At, i32);
 
 /// An interval that the sweep line covers since `since`.
 struct Open {
-    since: (f64, u32),
-    from: (f64, u32),
-    to: (f64, u32),
+    since: At,
+    from: At,
+    to: At,
 }
 
 /// The rectangles that tile `facet` under `placement`, by the levels of their sides.
@@ -46,7 +49,7 @@ pub fn rectangles(structure: &Structure, facet: &Facet, placement: &[f64]) -> Op
             (low[v], high[v]) = (o.from.1, o.to.1);
             tiles.push(LevelBox { low, high });
         };
-        let same = |o: &Open, c: &((f64, u32), (f64, u32))| o.from.0 == c.0.0 && o.to.0 == c.1.0;
+        let same = |o: &Open, c: &(At, At)| o.from.0 == c.0.0 && o.to.0 == c.1.0;
         open.retain(|o| {
             let goes_on = covered.iter().any(|c| same(o, c));
             if !goes_on {
@@ -74,7 +77,7 @@ fn events(structure: &Structure, facet: &Facet, placement: &[f64], u: usize, v: 
     across.map(event).collect()
 }
 
-fn add_step(steps: &mut Vec<Step>, at: (f64, u32), winding: i32) {
+fn add_step(steps: &mut Vec<Step>, at: At, winding: i32) {
     let i = steps.partition_point(|s| s.0.0 < at.0);
     match steps.get_mut(i) {
         Some(step) if step.0.0 == at.0 => {
@@ -89,7 +92,7 @@ fn add_step(steps: &mut Vec<Step>, at: (f64, u32), winding: i32) {
 }
 
 /// The intervals of winding number 1, or `None` where another number than 0 and 1 occurs.
-fn covered(steps: &[Step]) -> Option<Vec<((f64, u32), (f64, u32))>> {
+fn covered(steps: &[Step]) -> Option<Vec<(At, At)>> {
     let mut intervals = Vec::new();
     let mut winding = 0;
     let mut from = None;

@@ -95,25 +95,44 @@ impl Surface {
 
     /// Pairs up half-edges over one mesh edge.
     fn link(&mut self) -> Vec<Violation> {
-        let ends = |h: HalfEdge| [self.start(h), self.end(h)];
-        let mut sorted: Vec<([u32; 2], HalfEdge)> = self.half_edges().map(|h| (ordered(ends(h)), h)).collect();
-        sorted.sort_unstable();
         let mut violations = Vec::new();
         let mut twins = std::mem::take(&mut self.twins);
-        for group in sorted.chunk_by(|a, b| a.0 == b.0) {
-            let edge = group[0].0;
-            match *group {
-                [(_, a), (_, b)] if self.start(a) != self.start(b) => {
-                    twins[a as usize] = b;
-                    twins[b as usize] = a;
+        for (vertex, own) in (0..).zip(self.by_lower_end().chunks()) {
+            for group in own.chunk_by(|a, b| a.0 == b.0) {
+                let edge = [vertex, group[0].0];
+                match *group {
+                    [(_, a), (_, b)] if self.start(a) != self.start(b) => {
+                        twins[a as usize] = b;
+                        twins[b as usize] = a;
+                    }
+                    [_] => violations.push(Violation::OpenEdge { edge }),
+                    [_, _] => violations.push(Violation::InconsistentOrientation { edge }),
+                    _ => violations.push(Violation::NonManifoldEdge { edge }),
                 }
-                [_] => violations.push(Violation::OpenEdge { edge }),
-                [_, _] => violations.push(Violation::InconsistentOrientation { edge }),
-                _ => violations.push(Violation::NonManifoldEdge { edge }),
             }
         }
         self.twins = twins;
         violations
+    }
+
+    /// For every vertex the half-edges to and from vertices with higher numbers, sorted by those. O(n) unless many meet
+    /// at one vertex.
+    fn by_lower_end(&self) -> Buckets {
+        let ends = |h: HalfEdge| ordered([self.start(h), self.end(h)]);
+        let mut starts = vec![0; self.outgoing.len() + 1];
+        self.half_edges().for_each(|h| starts[ends(h)[0] as usize + 1] += 1);
+        for v in 1..starts.len() {
+            starts[v] += starts[v - 1];
+        }
+        let mut free = starts.clone();
+        let mut entries = vec![(0, 0); starts[self.outgoing.len()]];
+        for h in self.half_edges() {
+            let [low, high] = ends(h);
+            entries[free[low as usize]] = (high, h);
+            free[low as usize] += 1;
+        }
+        starts.windows(2).for_each(|w| entries[w[0]..w[1]].sort_unstable());
+        Buckets { starts, entries }
     }
 
     /// Finds a half-edge out of each vertex and the vertices with more than one fan.
@@ -129,6 +148,18 @@ impl Surface {
         let several = |&v: &u32| self.fan(v).count() < valence[v as usize] as usize;
         let vertices = 0..valence.len() as u32;
         vertices.filter(several).map(|vertex| Violation::NonManifoldVertex { vertex }).collect()
+    }
+}
+
+/// Half-edges with their higher ends, vertex by vertex.
+struct Buckets {
+    starts: Vec<usize>,
+    entries: Vec<(u32, HalfEdge)>,
+}
+
+impl Buckets {
+    fn chunks(&self) -> impl Iterator<Item = &[(u32, HalfEdge)]> {
+        self.starts.windows(2).map(|w| &self.entries[w[0]..w[1]])
     }
 }
 

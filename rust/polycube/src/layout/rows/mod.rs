@@ -6,6 +6,8 @@
 
 mod patches;
 mod sheets;
+#[cfg(test)]
+mod tests;
 mod valid;
 
 use super::Objective;

@@ -48,12 +48,8 @@ impl<R: PrimInt> Rows<R> {
         }
         loop {
             let before = ones(&marked);
-            for row in self.size[0] + 1..self.solid.len() {
-                self.pass_on(&mut marked, flat, row, kinds[row]);
-            }
-            for row in (self.size[0] + 1..self.solid.len()).rev() {
-                self.pass_on(&mut marked, flat, row, kinds[row]);
-            }
+            let rows = kinds.iter().enumerate().skip(self.size[0] + 1);
+            rows.clone().chain(rows.rev()).for_each(|(row, &kind)| self.pass_on(&mut marked, flat, row, kind));
             if ones(&marked) == before {
                 return marked;
             }

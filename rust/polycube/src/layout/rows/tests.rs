@@ -1,0 +1,78 @@
+//! The rows of bits against the exact arrangement and the lattice of cells.
+
+use super::Rows;
+use crate::generate::{SplitMix64, random_polycube};
+use crate::layout::{Objective, count};
+use crate::mesh::CellKind;
+use crate::structure::{Arrangement, Polycube, Structure, Tolerance};
+use num_traits::PrimInt;
+
+const OBJECTIVES: [Objective; 3] = [Objective::BlocksPadded, Objective::Blocks, Objective::SurfacePatches];
+
+fn polycube(seed: u64) -> Polycube {
+    let mesh = random_polycube(seed, 6, 10).unwrap().mesh(CellKind::Quads, 1e9).unwrap();
+    Polycube::new(&mesh, None, &Tolerance::default()).unwrap()
+}
+
+/// The rank of every level and the number of planes.
+fn ranks(structure: &Structure, placement: &[f64]) -> (Vec<u16>, [usize; 3]) {
+    let mut planes = [0; 3];
+    let mut ranks = vec![0; placement.len()];
+    for axis in 0..3 {
+        let own = || (0..placement.len()).filter(|&l| structure.levels[l].axis == axis);
+        let mut sorted: Vec<f64> = own().map(|l| placement[l]).collect();
+        sorted.sort_by(f64::total_cmp);
+        sorted.dedup();
+        own().for_each(|l| ranks[l] = sorted.partition_point(|&x| x < placement[l]) as u16 + 1);
+        planes[axis] = sorted.len();
+    }
+    (ranks, planes)
+}
+
+/// What the exact arrangement says: nothing for a placement that is no valid polycube.
+fn exact(structure: &Structure, placement: &[f64], objective: Objective) -> Option<usize> {
+    let arrangement = Arrangement::new(structure, placement);
+    let valid = structure.shortest_edge(placement) > 0.0
+        && arrangement.conflicts().is_empty()
+        && arrangement.inside_out().is_empty();
+    valid.then(|| count(&arrangement).of(objective))
+}
+
+/// Moves one level after another onto, before or behind another and compares; how many placements were valid and not.
+fn compare<R: PrimInt>(seed: u64, steps: usize) -> [usize; 2] {
+    let polycube = polycube(seed);
+    let structure = &polycube.structure;
+    let mut rows = Rows::<R>::new(structure);
+    let mut random = SplitMix64::new(seed);
+    let mut at = polycube.placement.clone();
+    let mut seen = [0; 2];
+    for _ in 0..steps {
+        let mut placement = at.clone();
+        let [level, onto] = [(); 2].map(|()| random.below(at.len() as u64) as usize);
+        if structure.levels[level].axis != structure.levels[onto].axis {
+            continue;
+        }
+        placement[level] = placement[onto] + random.between(-1, 1) as f64 * 1e-6;
+        let (order, planes) = ranks(structure, &placement);
+        for objective in OBJECTIVES {
+            let expected = exact(structure, &placement, objective);
+            assert_eq!(rows.count(objective, &order, planes), expected, "seed {seed}, {objective:?}, {placement:?}");
+        }
+        let valid = rows.count(Objective::Blocks, &order, planes).is_some();
+        seen[usize::from(valid)] += 1;
+        if valid {
+            at = placement;
+        }
+    }
+    seen
+}
+
+#[test]
+fn rows_agree_with_the_arrangement_on_valid_and_broken_orders() {
+    let mut seen = [0; 2];
+    for seed in 0..60 {
+        let these = if seed % 2 == 0 { compare::<u64>(seed, 60) } else { compare::<u128>(seed, 60) };
+        seen = [seen[0] + these[0], seen[1] + these[1]];
+    }
+    assert!(seen[0] > 300 && seen[1] > 300, "both kinds must occur: {seen:?}");
+}
