@@ -37,7 +37,8 @@ pub struct Arrangement<'a> {
     structure: &'a Structure,
     placement: Vec<f64>,
     tiles: Vec<Tile>,
-    tile_index: Boxes,
+    /// The tiles across each axis.
+    tile_index: [Boxes; 3],
     edge_index: Boxes,
     folded: Vec<u32>,
 }
@@ -56,8 +57,11 @@ impl<'a> Arrangement<'a> {
             }
         }
         let extent = |levels: &LevelBox| structure.extent(levels, &placement);
-        let tile_index = Boxes::new(tiles.iter().map(|t| extent(&t.levels)));
-        let edge_index = Boxes::new(structure.edges.iter().map(|e| extent(&structure.edge_box(e))));
+        let tile_index = [0, 1, 2].map(|axis| {
+            let across = |t: &(u32, &Tile)| structure.facets[t.1.facet as usize].label.axis() == axis;
+            Boxes::new((0..).zip(&tiles).filter(across).map(|(i, t)| (i, extent(&t.levels))))
+        });
+        let edge_index = Boxes::new((0..).zip(&structure.edges).map(|(i, e)| (i, extent(&structure.edge_box(e)))));
         Self { structure, placement, tiles, tile_index, edge_index, folded }
     }
 
@@ -100,31 +104,25 @@ impl<'a> Arrangement<'a> {
     /// Whether `point` lies inside or on the polycube.
     pub fn contains(&self, point: [f64; 3]) -> bool {
         let mut on_surface = false;
-        self.tile_index.meeting(point, point, |_| on_surface = true);
+        self.tile_index.iter().for_each(|tiles| tiles.meeting(point, point, |_| on_surface = true));
         on_surface || self.winding(point, |_| true) != 0
     }
 
     /// The closest facet that the ray from `point` along `axis` (upwards or downwards) meets beyond `point`:
     /// the facet, and the levels that bound it around the place where it is hit.
     pub fn first_hit(&self, point: [f64; 3], axis: usize, upwards: bool) -> Option<(u32, LevelBox)> {
-        let sign = if upwards { 1.0 } else { -1.0 };
-        let distance = |t: &Tile| sign * (self.placement[t.levels.low[axis] as usize] - point[axis]);
-        let faces = |t: &Tile| self.structure.facets[t.facet as usize].label.axis() == axis;
-        let along = self.ray(point, axis, upwards).filter(|t| faces(t) && distance(t) > 0.0);
-        let nearest = along.min_by(|a, b| distance(a).total_cmp(&distance(b)).then(a.facet.cmp(&b.facet)))?;
-        Some((nearest.facet, self.clearance(nearest.facet, point)))
-    }
-
-    fn ray(&self, point: [f64; 3], axis: usize, upwards: bool) -> impl Iterator<Item = &Tile> {
-        let (mut low, mut high) = (point, point);
-        if upwards {
-            high[axis] = f64::MAX;
-        } else {
-            low[axis] = f64::MIN;
-        }
-        let mut items = Vec::new();
-        self.tile_index.meeting(low, high, |i| items.push(i));
-        items.into_iter().map(|i| &self.tiles[i as usize])
+        let (low, high) = ray(point, axis, upwards);
+        let mut nearest: Option<(f64, u32)> = None;
+        self.tile_index[axis].visit(low, high, |tile, wanted| {
+            let tile = &self.tiles[tile as usize];
+            let at = self.placement[tile.levels.low[axis] as usize];
+            let found = ((at - point[axis]).abs(), tile.facet);
+            if found.0 > 0.0 && nearest.is_none_or(|n| found < n) {
+                nearest = Some(found);
+                (if upwards { &mut wanted.high } else { &mut wanted.low })[axis] = at;
+            }
+        });
+        nearest.map(|(_, facet)| (facet, self.clearance(facet, point)))
     }
 
     /// The levels of the sides of `facet` nearest to `point` in the four directions of its plane.
@@ -157,13 +155,16 @@ impl<'a> Arrangement<'a> {
     /// How often the surface of the facets `chosen` winds around `point`, which must not lie on it. Where the ray
     /// runs along a tile's border the point counts as a little further up along Y and Z.
     fn winding(&self, point: [f64; 3], chosen: impl Fn(u32) -> bool) -> i32 {
-        let crossed = |t: &&Tile| {
-            let (low, high) = self.structure.extent(&t.levels, &self.placement);
-            let within = |a: usize| low[a] <= point[a] && point[a] < high[a];
-            self.structure.facets[t.facet as usize].label.axis() == 0 && within(1) && within(2) && chosen(t.facet)
-        };
-        let sign = |t: &Tile| i32::from(self.structure.facets[t.facet as usize].label.sign());
-        self.ray(point, 0, true).filter(crossed).map(sign).sum()
+        let (from, to) = ray(point, 0, true);
+        let mut winding = 0;
+        self.tile_index[0].meeting(from, to, |tile| {
+            let tile = &self.tiles[tile as usize];
+            let (low, high) = self.structure.extent(&tile.levels, &self.placement);
+            if (1..3).all(|a| low[a] <= point[a] && point[a] < high[a]) && chosen(tile.facet) {
+                winding += i32::from(self.structure.facets[tile.facet as usize].label.sign());
+            }
+        });
+        winding
     }
 
     /// A facet of component `c` if that component's solid side and its surroundings do not fit.
@@ -197,7 +198,9 @@ impl<'a> Arrangement<'a> {
             let conflict = if j > i { self.edge_meets_edge(edge, j) } else { None };
             edges.extend(conflict.map(|c| (j, c)));
         });
-        self.tile_index.meeting(low, high, |t| tiles.extend(self.edge_meets_tile(edge, t).map(|c| (t, c))));
+        for index in &self.tile_index {
+            index.meeting(low, high, |t| tiles.extend(self.edge_meets_tile(edge, t).map(|c| (t, c))));
+        }
         edges.sort_unstable_by_key(|e| e.0);
         tiles.sort_unstable_by_key(|t| t.0);
         edges.into_iter().chain(tiles).map(|(_, conflict)| conflict)
@@ -253,4 +256,15 @@ impl<'a> Arrangement<'a> {
         let high: [f64; 3] = std::array::from_fn(|k| b[k].min(d[k]));
         (0..3).all(|k| low[k] <= high[k]).then_some((low, high))
     }
+}
+
+/// The box that the ray from `point` along `axis` fills.
+fn ray(point: [f64; 3], axis: usize, upwards: bool) -> ([f64; 3], [f64; 3]) {
+    let (mut low, mut high) = (point, point);
+    if upwards {
+        high[axis] = f64::MAX;
+    } else {
+        low[axis] = f64::MIN;
+    }
+    (low, high)
 }
