@@ -1,11 +1,14 @@
 //! Base complex and patches of a placed structure, and how many there are.
 
+mod boxes;
 mod complex;
 mod lattice;
 mod separatrices;
 
+pub use boxes::{Block, Patch};
 pub use complex::{Complex, Counts};
 pub use lattice::Lattice;
+pub use separatrices::Separatrices;
 
 use crate::structure::Arrangement;
 
