@@ -1,3 +1,40 @@
 //! The `polycube` command.
 
-fn main() {}
+mod args;
+mod completions;
+mod demo;
+mod failure;
+mod inspect;
+mod mesh_files;
+mod output;
+mod progress;
+mod report;
+mod simplify;
+mod table;
+mod terminal;
+mod validate;
+
+use args::{Cli, Command};
+use clap::Parser;
+use failure::{Failure, USAGE};
+use std::process::ExitCode;
+
+fn main() -> ExitCode {
+    let cli = match Cli::try_parse() {
+        Ok(cli) => cli,
+        Err(error) => return explain(&error),
+    };
+    let done = match cli.command {
+        Command::Simplify(args) => simplify::run(&args),
+        Command::Inspect(args) => inspect::run(&args),
+        Command::Validate(args) => validate::run(&args),
+        Command::Demo(args) => demo::run(&args),
+        Command::Completions(args) => completions::run(&args),
+    };
+    done.unwrap_or_else(|failure: Failure| failure.report())
+}
+
+/// Prints what clap has to say: help on standard output, wrong usage on standard error.
+fn explain(error: &clap::Error) -> ExitCode {
+    if error.print().is_ok() && !error.use_stderr() { ExitCode::SUCCESS } else { ExitCode::from(USAGE) }
+}

@@ -222,8 +222,26 @@ fn fit(polycube: &Polycube, mesh: &Mesh, levels: &[i64], scale: f64, context: &C
     let points: Vec<Point> = mesh.points.iter().map(|p| p * scale).collect();
     let mut fitted = Mesh { points, cells: mesh.cells.clone() };
     let placement: Vec<f64> = levels.iter().map(|&x| x as f64).collect();
-    fitted.points = morph(&fitted, &polycube.prescribed(&placement), context)?;
+    let fixed = straight_edges(polycube, &fitted.points, &placement);
+    fitted.points = morph(&fitted, &fixed, context)?;
     Ok(fitted)
+}
+
+/// What the morph must meet: corners and facets, and along every polycube edge the vertices stretched evenly between
+/// its ends. Left free, they overshoot where triangles are obtuse, and the edge turns back on itself.
+fn straight_edges(polycube: &Polycube, points: &[Point], placement: &[f64]) -> Vec<[Option<f64>; 3]> {
+    let mut fixed = polycube.prescribed(placement);
+    for (edge, chain) in polycube.structure.edges.iter().zip(&polycube.chains) {
+        let at = |v: u32| points[v as usize][edge.axis];
+        let (low, high) = (at(chain[0]), at(chain[chain.len() - 1]));
+        let [from, to] = polycube.structure.ends(edge).map(|l| placement[l as usize]);
+        for &v in &chain[1..chain.len() - 1] {
+            let part = if low < high { ((at(v) - low) / (high - low)).clamp(0.0, 1.0) } else { 0.5 };
+            let moved = (from - low) * (1.0 - part) + (to - high) * part;
+            fixed[v as usize][edge.axis] = Some((at(v) + moved).clamp(from, to));
+        }
+    }
+    fixed
 }
 
 fn report(polycube: &Polycube, alignment: &Alignment, strategy: Strategy, scale: f64) -> Report {

@@ -10,7 +10,10 @@ mod order;
 mod pairs;
 mod paper;
 pub mod problem;
+pub mod ranks;
 mod relax;
+#[allow(missing_docs)]
+pub mod search;
 mod separate;
 pub mod solve;
 
@@ -45,6 +48,15 @@ pub enum SolverKind {
     Exact,
     /// Linear programs through `good_lp`, with the separation planes as printed in Eq. 4. Slow.
     Linear,
+}
+
+impl SolverKind {
+    fn solver(self) -> Box<dyn Solver> {
+        match self {
+            Self::Exact => Box::<ExactSolver>::default(),
+            Self::Linear => Box::<LinearSolver>::default(),
+        }
+    }
 }
 
 /// What [`align`] shall do.
@@ -123,11 +135,7 @@ pub fn rescale(
         return Ok(targets.iter().map(|x| x.round() as i64).collect());
     }
     let order: Placement = levels.iter().map(|&x| x as f64).collect();
-    let solver: &dyn Solver = match options.solver {
-        SolverKind::Exact => &ExactSolver::default(),
-        SolverKind::Linear => &LinearSolver::default(),
-    };
-    Ok(to_integers(&place_in_order(structure, &order, &targets, solver, context)?))
+    Ok(to_integers(&place_in_order(structure, &order, &targets, &*options.solver.solver(), context)?))
 }
 
 fn scaled(input: &[f64], scale: f64) -> Result<Placement> {
@@ -160,10 +168,7 @@ fn simplify(
     options: &Options,
     context: &Context,
 ) -> Result<Alignment> {
-    let solver: &dyn Solver = match options.solver {
-        SolverKind::Exact => &ExactSolver::default(),
-        SolverKind::Linear => &LinearSolver::default(),
-    };
+    let solver = &*options.solver.solver();
     let oblique_planes = options.solver == SolverKind::Linear;
     let settings = Settings { lambda_min: options.lambda_min, solver, oblique_planes };
     let mut best = place_in_order(structure, input, targets, solver, context)?;

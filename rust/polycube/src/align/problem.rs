@@ -137,7 +137,7 @@ impl Problem {
     /// Saturates for levels outside `±MAX_LEVEL`.
     ///
     /// # Panics
-    /// If `levels` is shorter than the problem, or a pair names no variable.
+    /// If `levels` is shorter than the problem, or the problem would not pass [`validate`](Self::validate).
     pub fn exact_cost(&self, levels: &[i64]) -> i128 {
         let square = |d: i128, weight: u32| d.saturating_mul(d).saturating_mul(i128::from(weight));
         let pairs = self.pairs.iter().map(|p| {
@@ -166,6 +166,9 @@ impl Problem {
     ///
     /// # Errors
     /// The first constraint that they violate.
+    ///
+    /// # Panics
+    /// If a constraint names no variable, which [`validate`](Self::validate) finds.
     pub fn is_feasible(&self, levels: &[i64]) -> std::result::Result<(), Violation> {
         if levels.len() != self.len() {
             return Err(Violation::Length(levels.len()));
@@ -226,6 +229,9 @@ impl Problem {
     ///
     /// Why: a set of levels beyond the targets could move closer as one unless a positive gap reached across its
     /// border, so gaps of distinct variables cover the whole way from the outermost level back to the targets.
+    ///
+    /// # Panics
+    /// If a difference names no variable, which [`validate`](Self::validate) finds.
     pub fn reach(&self) -> (i64, i64) {
         let rounded = || (0..self.len()).map(|i| self.rounded_target(i));
         let mut gaps = vec![0; self.len()];
@@ -282,9 +288,12 @@ impl Problem {
         if let Some(i) = self.differences.iter().position(far) {
             return Err(out_of_range(format!("difference {i} has {:?}", self.differences[i])));
         }
-        let finite = |l: &Linear| l.at_least.is_finite() && l.terms.iter().all(|t| t.1.is_finite());
-        match self.linear.iter().position(|l| !finite(l)) {
-            Some(i) => Err(out_of_range(format!("linear constraint {i} is not finite"))),
+        let fine = |l: &Linear| {
+            let finite = l.at_least.is_finite() && l.terms.iter().all(|t| t.1.is_finite());
+            finite && !l.terms.is_empty()
+        };
+        match self.linear.iter().position(|l| !fine(l)) {
+            Some(i) => Err(out_of_range(format!("linear constraint {i} is empty or not finite"))),
             None => Ok(()),
         }
     }

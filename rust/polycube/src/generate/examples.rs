@@ -1,12 +1,12 @@
 //! Named polycubes for demonstrations, each with an organic shape it could have come from.
 
 use super::deform::Deformation;
-use super::mesh::{CellKind, Lattice, compact};
+use super::mesh::{Lattice, compact};
 use super::rng::SplitMix64;
 use super::soften::Body;
 use super::voxels::{Cuboid, Voxels};
 use crate::error::{Error, ErrorKind, Result};
-use crate::mesh::{Mesh, Point};
+use crate::mesh::{CellKind, Mesh, Point};
 use std::fmt;
 use std::str::FromStr;
 

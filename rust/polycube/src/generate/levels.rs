@@ -124,8 +124,9 @@ fn shortest_edge(mesh: &Mesh) -> f64 {
 
 #[cfg(test)]
 mod tests {
-    use super::super::{CellKind, Cuboid, Voxels, check, random_with_corners};
+    use super::super::{Cuboid, Voxels, check, random_with_corners};
     use super::*;
+    use crate::mesh::CellKind;
 
     fn is_axis_aligned(mesh: &Mesh, labels: &[i8]) -> bool {
         labels.iter().enumerate().all(|(i, label)| {

@@ -2,51 +2,7 @@
 
 use super::voxels::Voxels;
 use crate::error::{Error, ErrorKind, Result};
-use crate::mesh::{Cells, Mesh, Point};
-use std::fmt;
-use std::str::FromStr;
-
-/// The kinds of cells a mesh can be made of.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
-pub enum CellKind {
-    /// Surface of triangles: half quadrilaterals, with diagonals in turn.
-    Triangles,
-    /// Surface of quadrilaterals.
-    Quads,
-    /// Volume of tetrahedra, five to a cell. Its boundary is the surface of triangles.
-    Tetrahedra,
-    /// Volume of hexahedra.
-    Hexahedra,
-}
-
-impl CellKind {
-    /// Every kind.
-    pub const ALL: [Self; 4] = [Self::Triangles, Self::Quads, Self::Tetrahedra, Self::Hexahedra];
-}
-
-impl fmt::Display for CellKind {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.pad(match self {
-            Self::Triangles => "triangles",
-            Self::Quads => "quads",
-            Self::Tetrahedra => "tets",
-            Self::Hexahedra => "hexes",
-        })
-    }
-}
-
-impl FromStr for CellKind {
-    type Err = Error;
-
-    /// Reads what [`Display`](fmt::Display) writes.
-    fn from_str(name: &str) -> Result<Self> {
-        let found = Self::ALL.into_iter().find(|kind| kind.to_string() == name);
-        found.ok_or_else(|| {
-            Error::new(ErrorKind::Option, format!("there is no cell kind '{name}'"))
-                .remedy("use triangles, quads, tets or hexes")
-        })
-    }
-}
+use crate::mesh::{CellKind, Cells, Mesh, Point};
 
 /// The octants at the corners of each face (−X +X −Y +Y −Z +Z), counter-clockwise from outside.
 const FACES: [[usize; 4]; 6] = [[0, 4, 6, 2], [1, 3, 7, 5], [0, 1, 5, 4], [2, 6, 7, 3], [0, 2, 3, 1], [4, 5, 7, 6]];
@@ -183,8 +139,9 @@ impl Voxels {
     /// The mesh of the solid cells, each cut evenly into parts no longer than `step` on any axis.
     /// Coordinates stay integers where `step` divides the distances between the planes.
     ///
-    /// Vertices are shared and in the order of the lattice, X fastest; surfaces have no inner
-    /// vertex. The surface is manifold where the voxels are.
+    /// Triangles are half quadrilaterals with diagonals in turn, and are the boundary of the tetrahedra, five to a
+    /// cell. Vertices are shared and in the order of the lattice, X fastest; surfaces have no inner vertex. The
+    /// surface is manifold where the voxels are.
     ///
     /// # Errors
     /// [`ErrorKind::Option`] when `step` is not positive and finite or makes too many cells for
@@ -258,12 +215,10 @@ mod tests {
     }
 
     #[test]
-    fn names_are_read_back_and_nothing_is_no_mesh() {
+    fn nothing_is_no_mesh() {
         for kind in CellKind::ALL {
-            assert_eq!(kind.to_string().parse::<CellKind>().unwrap(), kind);
             let none = Voxels::from_boxes(&[]).unwrap().mesh(kind, 1.0);
             assert_eq!(none.unwrap_err().kind, ErrorKind::Mesh);
         }
-        assert_eq!("prism".parse::<CellKind>().unwrap_err().kind, ErrorKind::Option);
     }
 }

@@ -22,7 +22,6 @@ mod check;
 pub use deform::Deformation;
 pub use examples::{Example, cube_spikes, double_torus, example, ring, stepped_l};
 pub use levels::{move_levels, perturb};
-pub use mesh::CellKind;
 pub use random::{random_polycube, random_with_corners};
 pub use rng::SplitMix64;
 pub use symmetry::{scale, symmetries, transform, translate};

@@ -135,8 +135,9 @@ impl Voxels {
 
 #[cfg(test)]
 mod tests {
-    use super::super::{CellKind, check};
+    use super::super::check;
     use super::*;
+    use crate::mesh::CellKind;
 
     #[test]
     fn every_seed_makes_a_manifold_and_the_seeds_cover_all_topologies() {

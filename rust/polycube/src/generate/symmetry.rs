@@ -63,8 +63,9 @@ fn with_points(mesh: &Mesh, new: impl Fn(&Point) -> Point) -> Mesh {
 
 #[cfg(test)]
 mod tests {
-    use super::super::{CellKind, check, random_polycube};
+    use super::super::{check, random_polycube};
     use super::*;
+    use crate::mesh::CellKind;
 
     #[test]
     fn the_symmetries_form_a_group() {

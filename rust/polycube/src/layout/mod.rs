@@ -3,11 +3,13 @@
 mod boxes;
 mod complex;
 mod lattice;
+mod rows;
 mod separatrices;
 
 pub use boxes::{Block, Patch};
 pub use complex::{Complex, Counts};
 pub use lattice::Lattice;
+pub use rows::Rows;
 pub use separatrices::Separatrices;
 
 use crate::structure::Arrangement;

@@ -13,8 +13,10 @@ pub use io::{
 pub(crate) use simplices::split_quad;
 pub use simplices::{Face, Simplices};
 
+use crate::error::{Error, ErrorKind};
 use nalgebra::Point3;
 use std::fmt;
+use std::str::FromStr;
 
 /// A point in space.
 pub type Point = Point3<f64>;
@@ -39,12 +41,28 @@ impl CellKind {
 
 impl fmt::Display for CellKind {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.write_str(match self {
+        f.pad(match self {
             Self::Triangles => "triangles",
             Self::Quads => "quadrilaterals",
             Self::Tetrahedra => "tetrahedra",
             Self::Hexahedra => "hexahedra",
         })
+    }
+}
+
+impl FromStr for CellKind {
+    type Err = Error;
+
+    /// Reads what [`Display`](fmt::Display) writes, and the short names `quads`, `tets` and `hexes`.
+    fn from_str(name: &str) -> crate::Result<Self> {
+        match name {
+            "triangles" => Ok(Self::Triangles),
+            "quads" | "quadrilaterals" => Ok(Self::Quads),
+            "tets" | "tetrahedra" => Ok(Self::Tetrahedra),
+            "hexes" | "hexahedra" => Ok(Self::Hexahedra),
+            _ => Err(Error::new(ErrorKind::Option, format!("there is no cell kind '{name}'"))
+                .remedy("use triangles, quads, tets or hexes")),
+        }
     }
 }
 
@@ -113,5 +131,19 @@ impl Cells {
     /// Whether the cells fill a volume.
     pub fn is_volume(&self) -> bool {
         matches!(self, Self::Tetrahedra(_) | Self::Hexahedra(_))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn names_of_cell_kinds_are_read_back() {
+        for kind in CellKind::ALL {
+            assert_eq!(kind.to_string().parse::<CellKind>(), Ok(kind));
+        }
+        assert_eq!("hexes".parse::<CellKind>(), Ok(CellKind::Hexahedra));
+        assert_eq!("prism".parse::<CellKind>().unwrap_err().kind, ErrorKind::Option);
     }
 }

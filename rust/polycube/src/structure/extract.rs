@@ -65,7 +65,7 @@ impl Charts {
         next
     }
 
-    /// A flat chart is a disc with holes: its Euler number and its boundary loops must agree.
+    /// A flat chart is a disc with holes: its Euler number and its boundary loops must agree, and there is a loop.
     fn check_genus(self, surface: &Surface) -> Result<Self, Vec<Violation>> {
         let mut euler = vec![0_i64; self.labels.len()];
         let mut first = vec![u32::MAX; self.labels.len()];
@@ -84,12 +84,17 @@ impl Charts {
                 euler[self.left(surface, h) as usize] += 1;
             }
         }
+        let mut is_closed = vec![true; self.labels.len()];
         for (chart, loops) in self.border_loops(surface) {
             euler[chart as usize] += i64::from(loops > 0);
+            is_closed[chart as usize] = false;
         }
-        let handles = (0..).zip(&euler).filter(|(_, e)| **e != 2);
-        let violations: Vec<_> =
-            handles.map(|(c, _): (usize, _)| Violation::ChartWithHandle { face: first[c] }).collect();
+        let violation = |chart: usize| match (euler[chart], is_closed[chart]) {
+            (2, false) => None,
+            (2, true) => Some(Violation::TooFewCorners { face: first[chart], corners: 0 }),
+            _ => Some(Violation::ChartWithHandle { face: first[chart] }),
+        };
+        let violations: Vec<_> = (0..euler.len()).filter_map(violation).collect();
         if violations.is_empty() { Ok(self) } else { Err(violations) }
     }
 

@@ -172,6 +172,10 @@ impl<'a> Model<'a> {
 
     /// The optimal moves of the program as it stands.
     fn optimum(&self, time_limit: Duration) -> Result<Vec<f64>> {
+        if self.start.is_empty() {
+            // HiGHS takes a program without columns for an error.
+            return Ok(Vec::new());
+        }
         let mut columns = ProblemVariables::new();
         let moves: Vec<Variable> = self.start.iter().map(|&x| columns.add(self.level(x))).collect();
         let mut objective = Expression::default();

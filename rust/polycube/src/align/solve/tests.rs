@@ -69,7 +69,8 @@ fn large_targets_are_exact() {
 #[test]
 fn numbers_out_of_range_are_refused() {
     let fine = Problem { shape: vec![pull(1, 0.0); 2], ..Problem::default() };
-    let broken: [fn(&mut Problem); 9] = [
+    let broken: [fn(&mut Problem); 10] = [
+        |p| p.linear.push(Linear { terms: vec![], at_least: 1.0 }),
         |p| p.shape[0].target = f64::NAN,
         |p| p.shape[0].target = 1e12,
         |p| p.shape[0].weight = 0,

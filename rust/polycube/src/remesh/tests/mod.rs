@@ -6,8 +6,8 @@ mod surface;
 
 use super::{Hexes, Remesher};
 use crate::context::Context;
-use crate::generate::{CellKind, Example, example};
-use crate::mesh::{Cells, Mesh, Point};
+use crate::generate::{Example, example};
+use crate::mesh::{CellKind, Cells, Mesh, Point};
 use crate::simplify::{Input, Options, Simplified, simplify};
 
 /// A pair, simplified.

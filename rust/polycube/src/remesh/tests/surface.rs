@@ -3,8 +3,8 @@
 use super::{Case, quality};
 use crate::align::Strategy;
 use crate::context::Context;
-use crate::generate::{CellKind, Example, example};
-use crate::mesh::{Face, Mesh, Point, split_quad};
+use crate::generate::{Example, example};
+use crate::mesh::{CellKind, Face, Mesh, Point, split_quad};
 use crate::remesh::closest::Closest;
 use crate::remesh::{Site, hausdorff};
 use crate::simplify::Options;

@@ -1,0 +1,44 @@
+//! The meshes and labels that a subcommand works on.
+
+use crate::failure::{Failure, Result};
+use polycube::mesh::{self, Mesh};
+use polycube::simplify::Input;
+use std::path::Path;
+
+/// A polycube, with the shape and the labels that came with it.
+pub struct MeshFiles {
+    /// The polycube.
+    pub polycube: Mesh,
+    /// The shape, with the same cells.
+    pub shape: Option<Mesh>,
+    /// One label for each boundary face.
+    pub labels: Option<Vec<i8>>,
+}
+
+impl MeshFiles {
+    /// Reads the files.
+    pub fn read(polycube: &Path, shape: Option<&Path>, labels: Option<&Path>) -> Result<Self> {
+        let (mesh, shape) = read_meshes(polycube, shape)?;
+        let labels = labels.map(|file| read_labels(file, polycube, &mesh)).transpose()?;
+        Ok(Self { polycube: mesh, shape, labels })
+    }
+
+    /// What the library takes.
+    pub fn input(&self) -> Input<'_> {
+        Input { polycube: &self.polycube, shape: self.shape.as_ref(), labels: self.labels.as_deref() }
+    }
+}
+
+/// Reads the polycube and, if there is one, the shape with the same connectivity.
+pub fn read_meshes(polycube: &Path, shape: Option<&Path>) -> polycube::Result<(Mesh, Option<Mesh>)> {
+    match shape {
+        Some(shape) => mesh::read_pair(polycube, shape).map(|(polycube, shape)| (polycube, Some(shape))),
+        None => Ok((mesh::read(polycube)?, None)),
+    }
+}
+
+/// Reads one label for each boundary face of `mesh`, which came from the file `of`.
+pub fn read_labels(file: &Path, of: &Path, mesh: &Mesh) -> Result<Vec<i8>> {
+    let faces = mesh.cells.boundary().map_err(Failure::in_file(of))?.len();
+    Ok(mesh::read_labels(file, faces)?)
+}

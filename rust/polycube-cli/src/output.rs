@@ -1,0 +1,150 @@
+//! A folder of files that appear together or not at all.
+
+use polycube::{Context, Error, ErrorKind, Result};
+use std::fs;
+use std::io::{self, Write};
+use std::path::{Path, PathBuf};
+use tempfile::NamedTempFile;
+
+/// Files under temporary names in their folder, until all of them are complete.
+pub struct Output {
+    folder: PathBuf,
+    /// The folders that did not exist before, outermost first.
+    made: Vec<PathBuf>,
+    files: Vec<(PathBuf, NamedTempFile)>,
+}
+
+impl Output {
+    /// Makes the folder, unless it is there.
+    ///
+    /// # Errors
+    /// [`ErrorKind::Io`] naming the folder.
+    pub fn new(folder: &Path) -> Result<Self> {
+        let ancestors: Vec<&Path> = folder.ancestors().filter(|p| !p.as_os_str().is_empty()).collect();
+        let made = ancestors.into_iter().rev().filter(|p| !p.exists()).map(Path::to_owned).collect();
+        let output = Self { folder: folder.to_owned(), made, files: Vec::new() };
+        fs::create_dir_all(folder).map_err(|e| failed("create the folder", folder, &e))?;
+        Ok(output)
+    }
+
+    /// Where the file `name` will be.
+    pub fn path(&self, name: &str) -> PathBuf {
+        self.folder.join(name)
+    }
+
+    /// Writes a file to the disk under a temporary name.
+    ///
+    /// # Errors
+    /// [`ErrorKind::Io`] naming the file; the folder is then as it was before.
+    pub fn add(&mut self, name: &str, bytes: &[u8]) -> Result<()> {
+        let path = self.path(name);
+        if path.is_dir() {
+            return Err(failed("write", &path, &io::ErrorKind::IsADirectory.into()));
+        }
+        let file = self.stage(bytes).map_err(|e| failed("write", &path, &e))?;
+        self.files.push((path, file));
+        Ok(())
+    }
+
+    fn stage(&self, bytes: &[u8]) -> io::Result<NamedTempFile> {
+        let mut builder = tempfile::Builder::new();
+        builder.prefix(".polycube-").suffix(".tmp");
+        // A temporary file is private by default, but this one becomes an ordinary file.
+        #[cfg(unix)]
+        builder.permissions(std::os::unix::fs::PermissionsExt::from_mode(0o666));
+        let mut file = builder.tempfile_in(&self.folder)?;
+        file.write_all(bytes)?;
+        file.as_file().sync_all()?;
+        Ok(file)
+    }
+
+    /// Gives all files their names, unless the context was cancelled, and removes the files `stale` of an earlier run.
+    ///
+    /// # Errors
+    /// [`ErrorKind::Cancelled`]; [`ErrorKind::Io`] naming the file that could not be renamed or removed.
+    pub fn publish(mut self, stale: &[PathBuf], context: &Context) -> Result<()> {
+        context.tick(1.0)?;
+        self.made.clear();
+        for path in stale.iter().filter(|p| p.is_file()) {
+            fs::remove_file(path).map_err(|e| failed("remove", path, &e))?;
+        }
+        for (path, file) in std::mem::take(&mut self.files) {
+            file.persist(&path).map_err(|e| failed("write", &path, &e.error))?;
+        }
+        Ok(())
+    }
+}
+
+impl Drop for Output {
+    /// Removes what was not published: temporary files, then the folders made for them.
+    fn drop(&mut self) {
+        self.files.clear();
+        for folder in self.made.iter().rev() {
+            // Fails where someone else put a file, which is as it should be.
+            let _ = fs::remove_dir(folder);
+        }
+    }
+}
+
+fn failed(action: &str, path: &Path, error: &io::Error) -> Error {
+    let remedy = match error.kind() {
+        io::ErrorKind::PermissionDenied | io::ErrorKind::ReadOnlyFilesystem => "check the permissions of the folder",
+        io::ErrorKind::StorageFull | io::ErrorKind::QuotaExceeded => "free some space",
+        io::ErrorKind::NotADirectory | io::ErrorKind::AlreadyExists => "name a folder, not a file",
+        io::ErrorKind::IsADirectory => "remove the folder of that name or choose another output folder",
+        _ => "",
+    };
+    Error::new(ErrorKind::Io, format!("cannot {action} {}: {error}", path.display())).remedy(remedy)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn names(folder: &Path) -> Vec<String> {
+        let entries = fs::read_dir(folder).unwrap();
+        let mut names: Vec<_> = entries.map(|e| e.unwrap().file_name().into_string().unwrap()).collect();
+        names.sort();
+        names
+    }
+
+    #[test]
+    fn nothing_is_there_before_everything_is() {
+        let root = tempfile::tempdir().unwrap();
+        let folder = root.path().join("a/b");
+        let mut output = Output::new(&folder).unwrap();
+        output.add("one", b"1").unwrap();
+        output.add("two", b"2").unwrap();
+        assert!(!folder.join("one").exists());
+        output.publish(&[], &Context::default()).unwrap();
+        assert_eq!(names(&folder), ["one", "two"]);
+    }
+
+    #[test]
+    fn a_cancelled_or_failed_run_leaves_no_trace() {
+        let root = tempfile::tempdir().unwrap();
+        let context = Context::default();
+        context.cancel();
+        let mut output = Output::new(&root.path().join("a/b")).unwrap();
+        output.add("one", b"1").unwrap();
+        assert_eq!(output.publish(&[], &context).unwrap_err().kind, ErrorKind::Cancelled);
+        assert!(names(root.path()).is_empty());
+        fs::create_dir(root.path().join("taken")).unwrap();
+        let mut output = Output::new(root.path()).unwrap();
+        output.add("one", b"1").unwrap();
+        assert_eq!(output.add("taken", b"2").unwrap_err().kind, ErrorKind::Io);
+        drop(output);
+        assert_eq!(names(root.path()), ["taken"]);
+    }
+
+    #[test]
+    fn what_is_stale_goes() {
+        let root = tempfile::tempdir().unwrap();
+        let old = root.path().join("old");
+        fs::write(&old, "").unwrap();
+        let mut output = Output::new(root.path()).unwrap();
+        output.add("new", b"").unwrap();
+        output.publish(&[old], &Context::default()).unwrap();
+        assert_eq!(names(root.path()), ["new"]);
+    }
+}

@@ -1,0 +1,122 @@
+//! What `simplify` writes beside the mesh: `report.json` and `structure.json`.
+
+use polycube::align::SolverKind;
+use polycube::simplify::{Options, Report, Simplified};
+use polycube::structure::{Arrangement, Edge, Facet, Tolerance};
+use serde::Serialize;
+
+/// The files a run read, as they were named.
+#[derive(Clone, Debug, Serialize)]
+pub struct Files {
+    /// The polycube.
+    pub polycube: String,
+    /// The shape it was deformed from.
+    pub shape: Option<String>,
+    /// The label file.
+    pub labels: Option<String>,
+}
+
+/// `report.json`.
+#[derive(Debug, Serialize)]
+pub struct RunReport<'a> {
+    /// What was read.
+    pub input: &'a Files,
+    /// How it was done; the scale and the strategy are below.
+    pub options: OptionsUsed,
+    /// The name of the simplified polycube in the output folder; nothing if there is no valid one.
+    pub output: Option<&'a str>,
+    /// What was done.
+    #[serde(flatten)]
+    pub report: &'a Report,
+    /// Where a naive rounding broke the polycube.
+    pub broken: &'a [Broken],
+}
+
+/// The options that the library's report does not repeat.
+#[derive(Clone, Copy, Debug, Serialize)]
+pub struct OptionsUsed {
+    lambda_min: f64,
+    solver: SolverKind,
+    tolerance: Tolerance,
+}
+
+impl From<Options> for OptionsUsed {
+    fn from(Options { lambda_min, solver, tolerance, .. }: Options) -> Self {
+        Self { lambda_min, solver, tolerance }
+    }
+}
+
+/// A place where the rounded surface touches or crosses itself.
+#[derive(Clone, Debug, Serialize)]
+pub struct Broken {
+    /// The two facets, numbered as in `structure.json`.
+    facets: [u32; 2],
+    /// Where they meet, in lattice units.
+    point: [f64; 3],
+}
+
+/// `structure.json`.
+#[derive(Debug, Serialize)]
+pub struct StructureFile<'a> {
+    /// Whether `after` is a valid polycube.
+    valid: bool,
+    /// Lattice steps per unit of the input.
+    scale: f64,
+    levels: Vec<LevelRow>,
+    corners: Vec<CornerRow>,
+    edges: &'a [Edge],
+    facets: &'a [Facet],
+    broken: &'a [Broken],
+}
+
+/// A level before, in units of the input, and after, in lattice units.
+#[derive(Debug, Serialize)]
+struct LevelRow {
+    axis: usize,
+    before: f64,
+    after: i64,
+}
+
+/// A corner and its positions before, in units of the input, and after, in lattice units.
+#[derive(Debug, Serialize)]
+struct CornerRow {
+    vertex: u32,
+    valence: u32,
+    levels: [u32; 3],
+    before: [f64; 3],
+    after: [i64; 3],
+}
+
+impl<'a> StructureFile<'a> {
+    /// Collects the structure and its two placements.
+    pub fn new(result: &'a Simplified, broken: &'a [Broken]) -> Self {
+        let (structure, before) = (&result.input.structure, &result.input.placement);
+        let levels = structure.levels.iter().zip(before).zip(&result.levels);
+        let corner = |(i, c): (u32, &polycube::structure::Corner)| CornerRow {
+            vertex: c.vertex,
+            valence: c.valence,
+            levels: c.levels,
+            before: structure.position(i, before),
+            after: c.levels.map(|l| result.levels[l as usize]),
+        };
+        Self {
+            valid: result.report.valid,
+            scale: result.report.scale,
+            levels: levels.map(|((l, &before), &after)| LevelRow { axis: l.axis, before, after }).collect(),
+            corners: (0..).zip(&structure.corners).map(corner).collect(),
+            edges: &structure.edges,
+            facets: &structure.facets,
+            broken,
+        }
+    }
+}
+
+/// Everything that is wrong with a result that is not valid.
+pub fn broken(result: &Simplified) -> Vec<Broken> {
+    if result.report.valid {
+        return Vec::new();
+    }
+    let levels: Vec<f64> = result.levels.iter().map(|&x| x as f64).collect();
+    let conflicts = Arrangement::new(&result.input.structure, &levels).conflicts();
+    conflicts.into_iter().map(|c| Broken { facets: c.facets, point: c.point }).collect()
+}

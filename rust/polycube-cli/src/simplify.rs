@@ -1,0 +1,223 @@
+//! `polycube simplify`.
+
+use crate::args::{PolycubeArgs, fraction, positive};
+use crate::failure::{Failure, INVALID, Result};
+use crate::mesh_files::MeshFiles;
+use crate::output::Output;
+use crate::progress::Progress;
+use crate::report::{self, Files, RunReport, StructureFile};
+use crate::{table, terminal};
+use clap::ValueHint;
+use clap::builder::PossibleValue;
+use polycube::align::{SolverKind, Strategy};
+use polycube::mesh::{self, Format};
+use polycube::simplify::{Options, Simplified};
+use polycube::{Context, Error, ErrorKind};
+use std::path::{Path, PathBuf};
+use std::process::ExitCode;
+use std::time::Instant;
+
+const NOTES: &str = "\
+In the output folder:
+  polycube.EXT    the simplified polycube in lattice units, with the connectivity of the input
+  polycube.labels the label of each of its boundary faces, one a line, for --labels
+  structure.json  levels, corners, edges and facets, before and after
+  report.json     options, counts, rounds, times, displacement, distortion, flipped elements
+They appear together when all is done, or not at all. With `--strategy naive` and a result that is
+not valid, the two reports say what broke, there is no polycube, and the exit code is 3.
+`polycube --help` lists the exit codes.";
+
+/// The name of the label file written.
+const LABELS: &str = "polycube.labels";
+
+/// What to simplify and how.
+#[derive(clap::Args, Clone, Debug)]
+#[command(after_help = NOTES)]
+pub struct Args {
+    /// The mesh, its labels and its tolerances.
+    #[command(flatten)]
+    pub mesh: PolycubeArgs,
+
+    /// The shape that the polycube was deformed from, with the same vertices and cells; the distortion of the map is
+    /// measured against it
+    #[arg(long, value_name = "SHAPE", value_hint = ValueHint::FilePath)]
+    pub shape: Option<PathBuf>,
+
+    /// Folder for the results; made if it is not there
+    #[arg(short, long, value_name = "DIR", value_hint = ValueHint::DirPath)]
+    pub output: PathBuf,
+
+    /// How the levels find their places
+    #[arg(long, value_enum, default_value_t)]
+    pub strategy: StrategyArg,
+
+    /// Lattice steps per unit of the polycube [default: 1 if all its levels are integers, else one step per mean mesh
+    /// edge]
+    #[arg(long, value_name = "S", value_parser = positive, conflicts_with = "edge_length")]
+    pub scale: Option<f64>,
+
+    /// Length of a lattice step, in units of the polycube: 1 / SCALE
+    #[arg(long, value_name = "H", value_parser = positive)]
+    pub edge_length: Option<f64>,
+
+    /// Stop before the weight λ of staying close to the input falls below this, from 0 (coarsest) to 1 (one round)
+    #[arg(long, value_name = "L", value_parser = fraction, default_value_t = 0.0)]
+    pub lambda_min: f64,
+
+    /// Who solves the integer problems
+    #[arg(long, value_enum, default_value_t)]
+    pub solver: SolverArg,
+
+    /// Format of the simplified polycube: obj, off, ply, stl, mesh, vtk or vtu [default: as the input]
+    #[arg(long, value_name = "EXT", value_parser = format)]
+    pub format: Option<Format>,
+
+    /// Print nothing but errors
+    #[arg(short, long)]
+    pub quiet: bool,
+}
+
+fn format(text: &str) -> std::result::Result<Format, String> {
+    text.parse().map_err(|e: Error| e.to_string())
+}
+
+/// A [`Strategy`] on the command line.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct StrategyArg(pub Strategy);
+
+impl clap::ValueEnum for StrategyArg {
+    fn value_variants<'a>() -> &'a [Self] {
+        &[Self(Strategy::Naive), Self(Strategy::Paper)]
+    }
+
+    /// A strategy without a name here does not compile; name it above, too.
+    fn to_possible_value(&self) -> Option<PossibleValue> {
+        let (name, help) = match self.0 {
+            Strategy::Naive => {
+                ("naive", "Round every level to the lattice, as usual pipelines do; may break the polycube")
+            }
+            Strategy::Paper => ("paper", "Align corners round by round (Algorithm 1 of the paper)"),
+        };
+        Some(PossibleValue::new(name).help(help))
+    }
+}
+
+/// A [`SolverKind`] on the command line.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct SolverArg(pub SolverKind);
+
+impl clap::ValueEnum for SolverArg {
+    fn value_variants<'a>() -> &'a [Self] {
+        &[Self(SolverKind::Exact), Self(SolverKind::Linear)]
+    }
+
+    fn to_possible_value(&self) -> Option<PossibleValue> {
+        let (name, help) = match self.0 {
+            SolverKind::Exact => ("exact", "Minimum cuts in integer arithmetic"),
+            SolverKind::Linear => ("linear", "Linear programs, with the separation planes as in the paper; slow"),
+        };
+        Some(PossibleValue::new(name).help(help))
+    }
+}
+
+impl Args {
+    fn options(&self) -> Options {
+        Options {
+            strategy: self.strategy.0,
+            scale: self.scale.or(self.edge_length.map(f64::recip)),
+            lambda_min: self.lambda_min,
+            solver: self.solver.0,
+            tolerance: self.mesh.tolerance.get(),
+        }
+    }
+
+    fn files(&self) -> Files {
+        let name = |path: &Path| path.display().to_string();
+        Files {
+            polycube: name(&self.mesh.polycube),
+            shape: self.shape.as_deref().map(name),
+            labels: self.mesh.labels.as_deref().map(name),
+        }
+    }
+}
+
+/// Runs the subcommand.
+pub fn run(args: &Args) -> Result<ExitCode> {
+    let progress = Progress::start(args.quiet)?;
+    let result = work(args, &progress.context)?;
+    drop(progress);
+    let valid = result.report.valid;
+    if !args.quiet {
+        let place = format!("written to {}\n", args.output.display());
+        terminal::print(&(table::summary(&result.report) + &place))?;
+    }
+    if valid {
+        return Ok(ExitCode::SUCCESS);
+    }
+    terminal::print_error(&format!(
+        "error: the result is not a valid polycube, so it was not written\n  remedy: see \"broken\" in {}, or choose another strategy",
+        args.output.join("report.json").display()
+    ));
+    Ok(ExitCode::from(INVALID))
+}
+
+/// Reads, simplifies, writes.
+pub fn work(args: &Args, context: &Context) -> Result<Simplified> {
+    let start = Instant::now();
+    context.stage("read", 0.0, 0.1).tick(0.0)?;
+    let meshes = MeshFiles::read(&args.mesh.polycube, args.shape.as_deref(), args.mesh.labels.as_deref())?;
+    let format = output_format(args, &meshes)?;
+    let read = start.elapsed().as_secs_f64();
+    let middle = context.stage("read", 0.1, 0.9);
+    let about = Failure::in_file(&args.mesh.polycube);
+    let mut result = polycube::simplify::simplify(&meshes.input(), &args.options(), &middle).map_err(about)?;
+    let done = start.elapsed().as_secs_f64();
+    result.report.seconds.read = read;
+    write(args, &mut result, format, &context.stage("write", 0.9, 1.0), || start.elapsed().as_secs_f64() - done)?;
+    result.report.seconds.total = start.elapsed().as_secs_f64();
+    Ok(result)
+}
+
+/// The format of the result, once it is known that it can hold the mesh.
+fn output_format(args: &Args, meshes: &MeshFiles) -> Result<Format> {
+    let format = args.format.map_or_else(|| Format::from_path(&args.mesh.polycube), Ok)?;
+    let kind = meshes.polycube.cells.kind();
+    if format.holds(kind) {
+        return Ok(format);
+    }
+    let able: Vec<&str> = Format::ALL.into_iter().filter(|f| f.holds(kind)).map(Format::extension).collect();
+    Err(Error::new(ErrorKind::Option, format!("a .{format} file cannot hold {kind}"))
+        .remedy(format!("choose --format from {}", able.join(", ")))
+        .into())
+}
+
+/// Writes the mesh, then the reports, which know how long that took, and then gives all of them their names.
+fn write(
+    args: &Args,
+    result: &mut Simplified,
+    format: Format,
+    context: &Context,
+    elapsed: impl Fn() -> f64,
+) -> Result<()> {
+    context.tick(0.0)?;
+    let mut output = Output::new(&args.output)?;
+    let name = format!("polycube.{format}");
+    if let Some(mesh) = &result.polycube {
+        output.add(&name, &mesh::write_bytes(format, mesh, &[])?)?;
+        let labels: String = result.input.labels().map(|l| format!("{}\n", l.index())).collect();
+        output.add(LABELS, labels.as_bytes())?;
+    }
+    let broken = report::broken(result);
+    output.add("structure.json", terminal::to_json(&StructureFile::new(result, &broken))?.as_bytes())?;
+    let seconds = &mut result.report.seconds;
+    seconds.write = elapsed();
+    seconds.total += seconds.read + seconds.write;
+    let files = args.files();
+    let valid = result.polycube.is_some();
+    let options = args.options().into();
+    let output_name = valid.then_some(name.as_str());
+    let run = RunReport { input: &files, options, output: output_name, report: &result.report, broken: &broken };
+    output.add("report.json", terminal::to_json(&run)?.as_bytes())?;
+    let stale = if valid { Vec::new() } else { vec![output.path(&name), output.path(LABELS)] };
+    Ok(output.publish(&stale, context)?)
+}

@@ -1,0 +1,104 @@
+//! Tables for people.
+
+use comfy_table::presets::UTF8_NO_BORDERS;
+use comfy_table::{CellAlignment, LineStyle, Table};
+use polycube::layout::Counts;
+use polycube::simplify::Report;
+
+/// A table under `header`; every column but the first is aligned to the right.
+pub fn table<const N: usize>(header: [&str; N], rows: impl IntoIterator<Item = [String; N]>) -> String {
+    let mut table = Table::new();
+    table.load_style(UTF8_NO_BORDERS).set_header(header);
+    table.style_mut().row_separator = LineStyle::none();
+    for row in rows {
+        table.add_row(row);
+    }
+    table.column_iter_mut().skip(1).for_each(|c| {
+        c.set_cell_alignment(CellAlignment::Right);
+    });
+    table.trim_fmt() + "\n"
+}
+
+/// The three counts, by their names for people.
+pub fn counts(counts: &Counts) -> [(&'static str, usize); 3] {
+    [("surface patches", counts.surface_patches), ("blocks", counts.blocks), ("blocks, padded", counts.blocks_padded)]
+}
+
+/// What a run did.
+pub fn summary(report: &Report) -> String {
+    let mut text = match &report.after {
+        Some(after) => gains(&report.before, after),
+        None => {
+            table(["", "before", "after"], counts(&report.before).map(|(n, x)| [n.into(), x.to_string(), "-".into()]))
+        }
+    };
+    text.push('\n');
+    for (name, value) in facts(report) {
+        text += &format!("{name:21}{value}\n");
+    }
+    for note in &report.notes {
+        text += &format!("note: {note}\n");
+    }
+    text
+}
+
+fn gains(before: &Counts, after: &Counts) -> String {
+    let row = |((name, b), (_, a)): ((&str, usize), (&str, usize))| {
+        let gain = if b == 0 { 0.0 } else { 100.0 * (a as f64 - b as f64) / b as f64 };
+        [name.to_owned(), b.to_string(), a.to_string(), format!("{gain:+.0} %")]
+    };
+    table(["", "before", "after", "change"], counts(before).into_iter().zip(counts(after)).map(row))
+}
+
+fn facts(report: &Report) -> Vec<(&'static str, String)> {
+    let mut facts = vec![
+        ("lattice", format!("{} steps per unit of the input", short(report.scale))),
+        ("rounds", report.rounds.len().to_string()),
+        ("corners moved by", format!("at most {} units of the input", short(report.max_displacement))),
+    ];
+    if let Some([before, after]) = &report.distortion {
+        facts.push((
+            "angle distortion",
+            format!("{:.3} before, {:.3} after (mean; 1 is none)", before.angle, after.angle),
+        ));
+        facts
+            .push(("size distortion", format!("{:.3} before, {:.3} after (mean; 1 is none)", before.size, after.size)));
+    }
+    if report.valid {
+        facts.push(("flipped elements", report.flipped_elements.to_string()));
+    }
+    facts.push(("seconds", seconds(report)));
+    facts
+}
+
+fn seconds(report: &Report) -> String {
+    let s = &report.seconds;
+    let stages = [("read", s.read), ("structure", s.structure), ("align", s.align), ("morph", s.morph)];
+    let each: Vec<String> = stages.iter().map(|(name, t)| format!("{name} {t:.3}")).collect();
+    format!("{:.3} ({}, write {:.3})", s.total, each.join(", "), s.write)
+}
+
+/// A number with at most six decimals and no trailing zeros.
+pub fn short(x: f64) -> String {
+    let text = format!("{x:.6}");
+    text.trim_end_matches('0').trim_end_matches('.').to_owned()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn numbers_are_short() {
+        let found = [1.0, 0.37, 100.0, 1.0 / 3.0, 0.0].map(short);
+        assert_eq!(found, ["1", "0.37", "100", "0.333333", "0"]);
+    }
+
+    #[test]
+    fn gains_are_relative() {
+        let before = Counts { surface_patches: 168, blocks: 108, blocks_padded: 276 };
+        let after = Counts { surface_patches: 78, blocks: 33, blocks_padded: 111 };
+        let text = gains(&before, &after);
+        assert!(text.contains("-54 %") && text.contains("-69 %") && text.contains("-60 %"), "{text}");
+    }
+}

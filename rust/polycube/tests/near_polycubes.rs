@@ -1,0 +1,329 @@
+//! Meshes that are almost polycubes are read and their deviation is told; the others are refused, naming the element.
+
+mod common;
+
+use common::{dense, read, simplify};
+use nalgebra::{Rotation3, Vector3};
+use polycube::generate::{Cuboid, SplitMix64, Voxels, random_polycube};
+use polycube::mesh::{CellKind, Cells, Mesh, Point};
+use polycube::structure::{Polycube, Tolerance, Violation};
+use polycube::{Error, Options, Place};
+
+/// The surface of unit quadrilaterals of boxes.
+fn quads(boxes: &[([i64; 3], [i64; 3])]) -> Mesh {
+    surface(boxes, CellKind::Quads)
+}
+
+fn surface(boxes: &[([i64; 3], [i64; 3])], kind: CellKind) -> Mesh {
+    let boxes: Vec<Cuboid> = boxes.iter().map(|b| Cuboid::new(b.0, b.1)).collect();
+    Voxels::from_boxes(&boxes).expect("boxes").mesh(kind, 1.0).expect("a mesh")
+}
+
+fn cube(n: i64) -> Mesh {
+    quads(&[([0; 3], [n; 3])])
+}
+
+fn vertex(mesh: &Mesh, at: [f64; 3]) -> u32 {
+    mesh.points.iter().position(|p| *p == Point::from(at)).expect("a vertex lies there") as u32
+}
+
+/// The face whose vertices have the mean `at`.
+fn face(mesh: &Mesh, at: [f64; 3]) -> u32 {
+    let middle = |i: usize| {
+        let cell = mesh.cells.cell(i);
+        cell.iter().map(|&v| mesh.points[v as usize].coords).sum::<Vector3<f64>>() / cell.len() as f64
+    };
+    (0..mesh.cells.len()).position(|i| middle(i) == Vector3::from(at)).expect("a face lies there") as u32
+}
+
+fn faces_mut(mesh: &mut Mesh) -> &mut Vec<[u32; 4]> {
+    match &mut mesh.cells {
+        Cells::Quads(faces) => faces,
+        _ => unreachable!("the mesh has quadrilaterals"),
+    }
+}
+
+fn violations_of(mesh: &Mesh, labels: Option<&[i8]>) -> Vec<Violation> {
+    Polycube::new(mesh, labels, &Tolerance::default()).expect_err("the mesh is no polycube")
+}
+
+/// Violations name the edges of face `i`, in any order and direction.
+fn edges_of(mesh: &Mesh, i: u32) -> Vec<[u32; 2]> {
+    let v = mesh.cells.cell(i as usize);
+    let mut edges: Vec<[u32; 2]> = (0..v.len()).map(|k| [v[k], v[(k + 1) % v.len()]]).map(ascending).collect();
+    edges.sort_unstable();
+    edges
+}
+
+fn ascending([a, b]: [u32; 2]) -> [u32; 2] {
+    [a.min(b), a.max(b)]
+}
+
+/// Labels by normals, with those of some faces replaced.
+fn relabelled(mesh: &Mesh, changes: &[([f64; 3], i8)]) -> Vec<i8> {
+    let mut labels = common::labels(&read(mesh));
+    changes.iter().for_each(|(at, label)| labels[face(mesh, *at) as usize] = *label);
+    labels
+}
+
+#[test]
+fn turned_polycubes_are_read_and_the_angle_is_told() {
+    for seed in 0..common::cases(60) {
+        let mut mesh = random_polycube(seed, 5, 8).unwrap().mesh(CellKind::Quads, 1.0).unwrap();
+        let straight = read(&mesh);
+        let turn = Rotation3::from_axis_angle(&Vector3::z_axis(), 4_f64.to_radians());
+        mesh.points.iter_mut().for_each(|p| *p = turn * *p);
+        let result = simplify(&mesh, &Options { scale: Some(1.0), ..Options::default() }).unwrap();
+        assert_eq!(result.input.structure.edges.len(), straight.structure.edges.len(), "seed {seed}");
+        let deviation = result.report.deviation;
+        assert!((deviation.degrees - 4.0).abs() < 1e-6, "seed {seed}: {deviation:?}");
+        assert!(deviation.distance > 0.0);
+        assert_eq!(dense::check(&result.input.structure, &result.levels), Ok(()), "seed {seed}");
+    }
+}
+
+#[test]
+fn noisy_polycubes_have_the_structure_of_the_clean_ones() {
+    let mut rng = SplitMix64::new(7);
+    for seed in 0..common::cases(60) {
+        let clean = random_polycube(seed, 5, 8).unwrap().mesh(CellKind::Quads, 1.0).unwrap();
+        let mut mesh = clean.clone();
+        let mut noise = || 0.2 * rng.unit() - 0.1;
+        mesh.points.iter_mut().for_each(|p| *p += Vector3::from([noise(), noise(), noise()]));
+        let result = simplify(&mesh, &Options { scale: Some(1.0), ..Options::default() }).unwrap();
+        let expected = read(&clean);
+        let found = &result.input;
+        assert_eq!(found.structure, expected.structure, "seed {seed}");
+        let off = found.placement.iter().zip(&expected.placement).map(|(a, b)| (a - b).abs()).fold(0.0, f64::max);
+        assert!(off <= 0.1, "seed {seed}: a level is off by {off}");
+        assert!(result.report.deviation.distance > 0.0 && result.report.deviation.distance <= 0.1);
+        assert_eq!(dense::check(&found.structure, &result.levels), Ok(()), "seed {seed}");
+    }
+}
+
+#[test]
+fn faces_beyond_the_angle_tolerance_are_skew() {
+    let mut mesh = cube(2);
+    let turn = Rotation3::from_axis_angle(&Vector3::z_axis(), 35_f64.to_radians());
+    let sides: Vec<u32> = (0..24).filter(|&i| common::labels(&read(&mesh))[i as usize] < 4).collect();
+    mesh.points.iter_mut().for_each(|p| *p = turn * *p);
+    let found = violations_of(&mesh, None);
+    let skew = |v: &Violation| match v {
+        Violation::SkewFace { face, degrees } if (degrees - 35.0).abs() < 1e-9 => *face,
+        other => panic!("{other} is not skew by 35 degrees"),
+    };
+    assert_eq!(found.iter().map(skew).collect::<Vec<_>>(), sides);
+    let wide = Tolerance { degrees: 36.0, distance: 0.5, ..Tolerance::default() };
+    assert!(Polycube::new(&mesh, None, &wide).is_ok());
+}
+
+#[test]
+fn a_mesh_without_faces_is_empty() {
+    let mesh = Mesh { points: Vec::new(), cells: Cells::Quads(Vec::new()) };
+    assert_eq!(violations_of(&mesh, None), [Violation::Empty]);
+}
+
+#[test]
+fn coordinates_must_be_finite() {
+    for bad in [f64::NAN, f64::INFINITY] {
+        let mut mesh = cube(2);
+        mesh.points[3].y = bad;
+        assert_eq!(violations_of(&mesh, None), [Violation::NotFinite { vertex: 3 }]);
+    }
+}
+
+#[test]
+fn faces_must_have_vertices_of_their_own() {
+    for vertex in [faces_mut(&mut cube(1))[2][0], 8, u32::MAX] {
+        let mut mesh = cube(1);
+        faces_mut(&mut mesh)[2][3] = vertex;
+        assert_eq!(violations_of(&mesh, None), [Violation::BadFace { face: 2 }]);
+    }
+}
+
+/// The middle of the top moves into a corner: the triangles along the sides there lose their area.
+#[test]
+fn flat_faces_have_no_label() {
+    let mut mesh = surface(&[([0; 3], [2; 3])], CellKind::Triangles);
+    let labels = common::labels(&read(&mesh));
+    let middle = vertex(&mesh, [1.0, 1.0, 2.0]);
+    mesh.points[middle as usize] = Point::new(0.0, 0.0, 2.0);
+    let p = |v: u32| mesh.points[v as usize];
+    let is_flat = |i: &u32| {
+        let [a, b, c] = <[u32; 3]>::try_from(mesh.cells.cell(*i as usize)).unwrap().map(p);
+        (b - a).cross(&(c - a)).norm() == 0.0
+    };
+    let flat: Vec<u32> = (0..mesh.cells.len() as u32).filter(is_flat).collect();
+    assert!(!flat.is_empty());
+    let expected: Vec<Violation> = flat.into_iter().map(|face| Violation::FlatFace { face }).collect();
+    assert_eq!(violations_of(&mesh, None), expected);
+    assert!(Polycube::new(&mesh, Some(&labels), &Tolerance::default()).is_ok());
+}
+
+#[test]
+fn holes_are_open_edges() {
+    let whole = cube(2);
+    let mut mesh = whole.clone();
+    faces_mut(&mut mesh).pop();
+    let open = |v: Violation| match v {
+        Violation::OpenEdge { edge } => ascending(edge),
+        other => panic!("{other} is no open edge"),
+    };
+    let mut found: Vec<_> = violations_of(&mesh, None).into_iter().map(open).collect();
+    found.sort_unstable();
+    assert_eq!(found, edges_of(&whole, 23));
+}
+
+#[test]
+fn an_edge_of_four_faces_is_not_manifold() {
+    let mesh = quads(&[([0; 3], [1; 3]), ([1, 1, 0], [2, 2, 1])]);
+    let edge = [vertex(&mesh, [1.0, 1.0, 0.0]), vertex(&mesh, [1.0, 1.0, 1.0])];
+    assert_eq!(violations_of(&mesh, None), [Violation::NonManifoldEdge { edge }]);
+}
+
+#[test]
+fn a_turned_face_is_inconsistent_with_its_neighbours() {
+    let mut mesh = cube(2);
+    faces_mut(&mut mesh)[5].reverse();
+    let turned = |v: Violation| match v {
+        Violation::InconsistentOrientation { edge } => ascending(edge),
+        other => panic!("{other} is about something else"),
+    };
+    let mut found: Vec<_> = violations_of(&mesh, None).into_iter().map(turned).collect();
+    found.sort_unstable();
+    assert_eq!(found, edges_of(&mesh, 5));
+}
+
+#[test]
+fn cubes_that_touch_at_a_vertex_are_not_manifold() {
+    let mesh = quads(&[([0; 3], [1; 3]), ([1; 3], [2; 3])]);
+    assert_eq!(violations_of(&mesh, None), [Violation::NonManifoldVertex { vertex: vertex(&mesh, [1.0; 3]) }]);
+}
+
+#[test]
+fn neighbours_of_opposite_labels_are_named_by_their_edge() {
+    let mesh = cube(1);
+    let labels = relabelled(&mesh, &[([0.5, 1.0, 0.5], 5)]);
+    let [Violation::OppositeCharts { edge }] = violations_of(&mesh, Some(&labels))[..] else { panic!() };
+    let expected = [vertex(&mesh, [0.0, 1.0, 1.0]), vertex(&mesh, [1.0, 1.0, 1.0])];
+    assert_eq!(ascending(edge), ascending(expected));
+}
+
+/// Two of the four faces around the middle of the top look along X.
+#[test]
+fn a_corner_of_two_axes_is_incomplete() {
+    let mesh = cube(4);
+    let labels = relabelled(&mesh, &[([1.5, 1.5, 4.0], 0), ([2.5, 2.5, 4.0], 0)]);
+    let vertex = vertex(&mesh, [2.0, 2.0, 4.0]);
+    assert_eq!(violations_of(&mesh, Some(&labels)), [Violation::IncompleteCorner { vertex }]);
+}
+
+#[test]
+fn an_island_of_another_label_has_too_few_corners() {
+    let mesh = cube(3);
+    let at = [1.5, 1.5, 3.0];
+    let found = violations_of(&mesh, Some(&relabelled(&mesh, &[(at, 0)])));
+    assert!(found.contains(&Violation::TooFewCorners { face: face(&mesh, at), corners: 0 }), "{found:?}");
+    assert!(found.iter().all(|v| matches!(v, Violation::TooFewCorners { corners: 0, .. })), "{found:?}");
+}
+
+#[test]
+fn one_label_everywhere_is_no_polycube() {
+    let ring = [Cuboid::new([0; 3], [3, 3, 1])];
+    let ring = Voxels::from_difference(&ring, &[Cuboid::new([1, 1, 0], [2, 2, 1])]).unwrap();
+    let ring = ring.mesh(CellKind::Quads, 1.0).unwrap();
+    let one_label = vec![0; ring.cells.len()];
+    assert_eq!(violations_of(&ring, Some(&one_label)), [Violation::ChartWithHandle { face: 0 }]);
+    let mesh = cube(1);
+    let lenient = Tolerance { distance: 10.0, ..Tolerance::default() };
+    let found = Polycube::new(&mesh, Some(&[0; 6]), &lenient).map(|_| ()).unwrap_err();
+    assert_eq!(found, [Violation::TooFewCorners { face: 0, corners: 0 }]);
+}
+
+#[test]
+fn a_flattened_cube_has_edges_without_length() {
+    let mut mesh = cube(1);
+    let labels = common::labels(&read(&mesh));
+    let upright: Vec<[u32; 2]> = [[0.0, 0.0], [0.0, 1.0], [1.0, 0.0], [1.0, 1.0]]
+        .map(|[x, y]| ascending([vertex(&mesh, [x, y, 0.0]), vertex(&mesh, [x, y, 1.0])]))
+        .to_vec();
+    mesh.points.iter_mut().for_each(|p| p.z = 0.0);
+    let flat = |v: Violation| match v {
+        Violation::ZeroLengthEdge { ends } => ascending(ends),
+        other => panic!("{other} is about something else"),
+    };
+    let mut found: Vec<_> = violations_of(&mesh, Some(&labels)).into_iter().map(flat).collect();
+    found.sort_unstable();
+    let mut expected = upright;
+    expected.sort_unstable();
+    assert_eq!(found, expected);
+}
+
+#[test]
+fn an_edge_that_turns_back_is_named() {
+    let mut mesh = cube(3);
+    let [low, high] = [1.0, 2.0].map(|z| vertex(&mesh, [0.0, 0.0, z]));
+    mesh.points[low as usize].z = 1.7;
+    mesh.points[high as usize].z = 1.3;
+    assert_eq!(violations_of(&mesh, None), [Violation::NonMonotoneEdge { edge: [low, high] }]);
+}
+
+#[test]
+fn a_vertex_far_off_its_plane_is_named_with_its_distance() {
+    let mut mesh = cube(4);
+    let pushed = vertex(&mesh, [2.0, 2.0, 4.0]);
+    mesh.points[pushed as usize].z += 0.4;
+    assert!(Polycube::new(&mesh, None, &Tolerance::default()).is_ok());
+    let strict = Tolerance { distance: 0.01, ..Tolerance::default() };
+    let found = Polycube::new(&mesh, None, &strict).map(|_| ()).unwrap_err();
+    let distance = found.iter().find_map(|v| match v {
+        Violation::OffLevel { vertex, distance } if *vertex == pushed => Some(*distance),
+        _ => None,
+    });
+    assert!((distance.unwrap() - 0.2).abs() < 1e-12, "{found:?}");
+}
+
+#[test]
+fn parts_that_cross_are_named_by_faces_of_both() {
+    let mut mesh = cube(2);
+    let other = polycube::generate::translate(&mesh, Vector3::from([1.0; 3]));
+    let count = mesh.points.len() as u32;
+    let moved: Vec<[u32; 4]> = faces_mut(&mut mesh.clone()).iter().map(|f| f.map(|v| v + count)).collect();
+    mesh.points.extend(other.points);
+    faces_mut(&mut mesh).extend(moved);
+    let found = read(&mesh).overlaps(&mesh.points);
+    assert!(!found.is_empty());
+    for violation in found {
+        let Violation::SelfOverlap { face, other } = violation else { panic!("{violation}") };
+        assert_ne!(face < 24, other < 24, "one face of each cube");
+    }
+    let error = simplify(&mesh, &Options::default()).unwrap_err();
+    assert_eq!(error.kind, polycube::ErrorKind::Polycube);
+    assert!(matches!(error.place, Some(Place::Face(_))), "{error}");
+}
+
+#[test]
+fn a_surface_that_looks_inward_is_inside_out() {
+    let mut mesh = cube(2);
+    faces_mut(&mut mesh).iter_mut().for_each(|f| f.reverse());
+    assert_eq!(read(&mesh).overlaps(&mesh.points), [Violation::InsideOut { face: 0 }]);
+}
+
+#[test]
+fn a_face_of_three_cells_is_named_by_a_cell() {
+    let mut mesh = surface(&[([0; 3], [1; 3])], CellKind::Tetrahedra);
+    let Cells::Tetrahedra(cells) = &mut mesh.cells else { unreachable!() };
+    cells.push(cells[0]);
+    let found = violations_of(&mesh, None);
+    assert!(matches!(found[0].place(), Some(Place::Cell(_))), "{found:?}");
+}
+
+#[test]
+fn every_violation_says_what_to_do() {
+    let mut mesh = cube(2);
+    faces_mut(&mut mesh).pop();
+    for violation in violations_of(&mesh, None) {
+        let error = Error::from(violation.clone());
+        assert!(error.place == violation.place() && !error.message.is_empty() && !error.remedy.is_empty());
+    }
+}
