@@ -24,32 +24,56 @@ pub fn hausdorff(mesh: &Mesh, shape: &Mesh, context: &Context) -> Result<f64> {
 }
 
 /// The largest distance from a sample of `from` to the surface of `to`.
+///
+/// The distance grows no faster than one walks, so samples that cannot be farther than the farthest yet are skipped.
 fn farthest(from: &Mesh, to: &Mesh, context: &Context) -> Result<f64> {
     let (faces, target) = (from.cells.boundary()?, to.cells.boundary()?);
     if faces.is_empty() || target.is_empty() {
         return Err(Error::new(ErrorKind::Mesh, "a mesh without cells has no surface"));
     }
     let index = Closest::new(target.iter().flat_map(|f| triangles(to, f)));
-    let mut worst = 0.0_f64;
+    let at_vertices = vertex_distances(from, &faces, &index, &context.stage("hausdorff", 0.0, 0.3))?;
+    let context = context.stage("hausdorff", 0.3, 1.0);
+    let mut worst = at_vertices.iter().copied().fold(0.0_f64, f64::max);
     for (i, face) in faces.iter().enumerate() {
         context.tick_every(i, faces.len())?;
-        worst = samples(from, face).iter().map(|p| index.distance(p)).fold(worst, f64::max);
+        for sample in samples(from, face) {
+            let reach = |&v: &u32| at_vertices[v as usize] + (sample - from.points[v as usize]).norm();
+            if face.vertices().iter().map(reach).fold(f64::INFINITY, f64::min) > worst {
+                worst = worst.max(index.distance(&sample));
+            }
+        }
     }
     Ok(worst)
 }
 
+/// The distance of every vertex of `faces` from the index; 0 for vertices off the surface.
+fn vertex_distances(mesh: &Mesh, faces: &[Face], index: &Closest, context: &Context) -> Result<Vec<f64>> {
+    let mut used = vec![false; mesh.points.len()];
+    faces.iter().flat_map(Face::vertices).for_each(|&v| used[v as usize] = true);
+    let mut distances = vec![0.0; used.len()];
+    for (v, _) in used.iter().enumerate().filter(|(_, used)| **used) {
+        context.tick_every(v, used.len())?;
+        distances[v] = index.distance(&mesh.points[v]);
+    }
+    Ok(distances)
+}
+
+/// Points of a face beside its vertices.
 fn samples(mesh: &Mesh, face: &Face) -> Vec<Point> {
     let at = |v: u32| mesh.points[v as usize];
     match *face {
         Face::Triangle(t) => {
             let [a, b, c] = t.map(at);
-            vec![a, b, c, Point::from((a.coords + b.coords + c.coords) / 3.0)]
+            vec![Point::from((a.coords + b.coords + c.coords) / 3.0)]
         }
         Face::Quad(q) => {
             let [a, b, c, d] = q.map(at);
             let point = |s: f64, t: f64| a.lerp(&b, s).lerp(&d.lerp(&c, s), t);
             let unit = |i: usize| i as f64 / SAMPLES as f64;
-            (0..=SAMPLES).flat_map(|i| (0..=SAMPLES).map(move |j| point(unit(i), unit(j)))).collect()
+            let corner = |i: usize, j: usize| i.is_multiple_of(SAMPLES) && j.is_multiple_of(SAMPLES);
+            let grid = (0..=SAMPLES).flat_map(|i| (0..=SAMPLES).map(move |j| (i, j)));
+            grid.filter(|&(i, j)| !corner(i, j)).map(|(i, j)| point(unit(i), unit(j))).collect()
         }
     }
 }

@@ -4,7 +4,7 @@ use super::{Case, cells, corner_jacobians, distinct, generated, scaled_jacobian}
 use crate::context::Context;
 use crate::error::ErrorKind;
 use crate::mesh::{Cells, Mesh};
-use crate::remesh::{Hexes, Layout, MAX_PADDING, Size, base_complex, count_hexes, scale_for};
+use crate::remesh::{Hexes, Layout, MAX_PADDING, Remesher, Size, base_complex, count_hexes, scale_for};
 use crate::structure::Surface;
 
 /// The boundary is a closed manifold with the genus of the polycube; inner faces are shared by two.
@@ -126,10 +126,32 @@ fn sizes_are_met() {
             assert!((found / wanted as f64 - 1.0).abs() < 0.15, "{}: {found} for {wanted}", case.name);
             assert_eq!(result.report.after, case.simplified.report.after, "{}", case.name);
         }
+        check_edge_length(&case);
         let fine = scale_for(&case.input(), &case.simplified, Size::EdgeLength(1.0), 1, &context).unwrap();
         let coarse = scale_for(&case.input(), &case.simplified, Size::EdgeLength(2.0), 1, &context).unwrap();
         assert_eq!(fine, 2.0 * coarse);
     }
+}
+
+/// The squares of the surface have about the wanted edge length.
+fn check_edge_length(case: &Case) {
+    let context = Context::default();
+    let scale = scale_for(&case.input(), &case.simplified, Size::EdgeLength(2.0), 0, &context).unwrap();
+    let result = case.simplified.rescaled(&case.input(), scale, &context).unwrap();
+    let quads = Remesher::new(&result, &case.shape).unwrap().quads(&context).unwrap();
+    let Cells::Quads(cells) = &quads.mesh.cells else { panic!("not quadrilaterals") };
+    let at = |v: u32| quads.mesh.points[v as usize];
+    let lengths = cells.iter().flat_map(|q| (0..4).map(move |k| (at(q[k]) - at(q[(k + 1) % 4])).norm()));
+    let mean = lengths.sum::<f64>() / (4 * cells.len()) as f64;
+    assert!((1.5..2.5).contains(&mean), "{}: {mean}", case.name);
+}
+
+#[test]
+fn the_same_input_gives_the_same_bits() {
+    let context = Context::default();
+    let case = generated().nth(1).unwrap();
+    let [a, b] = [0, 1].map(|_| case.remesher().hexes(1, &context).unwrap());
+    assert_eq!(a, b);
 }
 
 #[test]

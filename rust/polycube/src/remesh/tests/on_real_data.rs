@@ -1,9 +1,11 @@
 //! Real pairs of shared data; without the folder these tests say so and pass (`POLYCUBE_REQUIRE_DATA=1`: fail).
 
 use super::{Case, quality};
+use crate::align::Strategy;
 use crate::context::Context;
 use crate::mesh::read_pair;
 use crate::remesh::{Remesher, hausdorff};
+use crate::simplify::Options;
 use std::path::PathBuf;
 use std::time::Instant;
 
@@ -29,9 +31,9 @@ fn folder() -> PathBuf {
     std::env::var_os("POLYCUBE_DATA").map_or(beside, PathBuf::from)
 }
 
-fn load(name: &str, extension: &str) -> Case {
+fn load(name: &str, extension: &str, options: &Options) -> Case {
     let file = |part: &str| folder().join(format!("{name}.{part}.{extension}"));
-    Case::new(format!("{name}.{extension}"), read_pair(&file("polycube"), &file("shape")).unwrap())
+    Case::with(options, format!("{name}.{extension}"), read_pair(&file("polycube"), &file("shape")).unwrap())
 }
 
 /// The published number of hexahedra.
@@ -45,17 +47,21 @@ fn published(name: &str) -> usize {
 #[test]
 fn meshes_of_real_pairs_have_the_reported_structure() {
     for (name, extension) in pairs().into_iter().filter(|(n, _)| n.contains("kitty") || n.contains("angel_1")) {
-        let case = load(&name, extension).sized(6000, 1);
+        let case = load(&name, extension, &Options::default()).sized(6000, 1);
         super::counts::check(&case);
         super::surface::check(&case);
     }
 }
 
-/// Run with `cargo test --release -p polycube -- --ignored --nocapture numbers_of_real_pairs`.
+/// Run with `cargo test --release -p polycube -- --ignored --nocapture numbers_of_real_pairs`, for the unsimplified
+/// polycubes with `POLYCUBE_NAIVE=1`, for one pair with its name in `POLYCUBE_ONLY`.
 #[test]
 #[ignore = "prints numbers; run in release mode"]
 fn numbers_of_real_pairs() {
     let context = Context::default();
+    let naive = std::env::var_os("POLYCUBE_NAIVE").is_some();
+    let strategy = if naive { Strategy::Naive } else { Strategy::default() };
+    let options = Options { strategy, ..Options::default() };
     let only = std::env::var("POLYCUBE_ONLY").unwrap_or_default();
     for (name, extension) in pairs().into_iter().filter(|(n, _)| n.contains(&only)) {
         let start = Instant::now();
@@ -65,7 +71,7 @@ fn numbers_of_real_pairs() {
             let seconds = (now - std::mem::replace(&mut last, now)).as_secs_f64();
             format!("{seconds:.2}")
         };
-        let case = load(&name, extension);
+        let case = load(&name, extension, &options);
         let simplified = lap();
         let case = case.sized(published(&name), 1);
         let sized = lap();
