@@ -34,6 +34,7 @@ pub use quads::Quads;
 pub use site::Site;
 pub use size::{Size, count_hexes, scale_for};
 
+use crate::context::Context;
 use crate::error::{Error, ErrorKind, Result};
 use crate::mesh::{Mesh, Point};
 use crate::simplify::Simplified;
@@ -59,15 +60,19 @@ impl<'a> Remesher<'a> {
     ///
     /// # Errors
     /// [`ErrorKind::Polycube`] when the simplification gave no valid polycube; [`ErrorKind::Mismatch`] unless `shape` has
-    /// the cells of the polycube; [`ErrorKind::Option`] when the lattice is finer than 32-bit indices can count.
-    pub fn new(simplified: &'a Simplified, shape: &'a Mesh) -> Result<Self> {
+    /// the cells of the polycube; [`ErrorKind::Option`] when the lattice is finer than 32-bit indices can count;
+    /// [`ErrorKind::Cancelled`].
+    pub fn new(simplified: &'a Simplified, shape: &'a Mesh, context: &Context) -> Result<Self> {
+        context.tick(0.0)?;
         let polycube = simplified.polycube.as_ref().ok_or_else(invalid)?;
         if polycube.cells != shape.cells || polycube.points.len() != shape.points.len() {
             let message = "shape and polycube do not have the same vertices and cells";
             return Err(Error::new(ErrorKind::Mismatch, message).remedy("give the shape of this polycube"));
         }
         let grid = Grid::new(&simplified.input.structure, &simplified.levels)?;
+        context.tick(0.7)?;
         let surface = SurfaceMap::new(&simplified.input, &polycube.points, &shape.points);
+        context.tick(1.0)?;
         Ok(Self { simplified, polycube, shape: &shape.points, grid, surface, volume: OnceLock::new() })
     }
 

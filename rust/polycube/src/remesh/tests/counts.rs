@@ -138,7 +138,7 @@ fn check_edge_length(case: &Case) {
     let context = Context::default();
     let scale = scale_for(&case.input(), &case.simplified, Size::EdgeLength(2.0), 0, &context).unwrap();
     let result = case.simplified.rescaled(&case.input(), scale, &context).unwrap();
-    let quads = Remesher::new(&result, &case.shape).unwrap().quads(&context).unwrap();
+    let quads = Remesher::new(&result, &case.shape, &context).unwrap().quads(&context).unwrap();
     let Cells::Quads(cells) = &quads.mesh.cells else { panic!("not quadrilaterals") };
     let at = |v: u32| quads.mesh.points[v as usize];
     let lengths = cells.iter().flat_map(|q| (0..4).map(move |k| (at(q[k]) - at(q[(k + 1) % 4])).norm()));
@@ -168,4 +168,10 @@ fn bad_options_are_refused() {
     context.cancel();
     assert_eq!(remesher.hexes(1, &context).unwrap_err().kind, ErrorKind::Cancelled);
     assert_eq!(remesher.quads(&context).unwrap_err().kind, ErrorKind::Cancelled);
+    let again = Remesher::new(&case.simplified, &case.shape, &context);
+    assert_eq!(again.err().unwrap().kind, ErrorKind::Cancelled);
+    let mut none = case.simplified.clone();
+    none.polycube = None;
+    let error = Remesher::new(&none, &case.shape, &Context::default()).err().unwrap();
+    assert_eq!(error.kind, ErrorKind::Polycube);
 }

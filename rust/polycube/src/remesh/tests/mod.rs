@@ -43,7 +43,7 @@ impl Case {
     }
 
     fn remesher(&self) -> Remesher<'_> {
-        Remesher::new(&self.simplified, &self.shape).unwrap()
+        Remesher::new(&self.simplified, &self.shape, &Context::default()).unwrap()
     }
 }
 
