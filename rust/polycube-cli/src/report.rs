@@ -1,6 +1,7 @@
 //! What `simplify` writes beside the mesh: `report.json` and `structure.json`.
 
-use polycube::align::SolverKind;
+use polycube::align::{Effort, SolverKind};
+use polycube::layout::Objective;
 use polycube::simplify::{Options, Report, Simplified};
 use polycube::structure::{Arrangement, Edge, Facet, Tolerance};
 use serde::Serialize;
@@ -37,12 +38,14 @@ pub struct RunReport<'a> {
 pub struct OptionsUsed {
     lambda_min: f64,
     solver: SolverKind,
+    objective: Option<Objective>,
+    effort: Effort,
     tolerance: Tolerance,
 }
 
 impl From<Options> for OptionsUsed {
-    fn from(Options { lambda_min, solver, tolerance, .. }: Options) -> Self {
-        Self { lambda_min, solver, tolerance }
+    fn from(Options { lambda_min, solver, objective, effort, tolerance, .. }: Options) -> Self {
+        Self { lambda_min, solver, objective, effort, tolerance }
     }
 }
 

@@ -9,7 +9,8 @@ use crate::report::{self, Files, RunReport, StructureFile};
 use crate::{table, terminal};
 use clap::ValueHint;
 use clap::builder::PossibleValue;
-use polycube::align::{SolverKind, Strategy};
+use polycube::align::{Effort, SolverKind, Strategy};
+use polycube::layout::Objective;
 use polycube::mesh::{self, Format};
 use polycube::simplify::{Options, Simplified};
 use polycube::{Context, Error, ErrorKind};
@@ -64,6 +65,26 @@ pub struct Args {
     #[arg(long, value_name = "L", value_parser = fraction, default_value_t = 0.0)]
     pub lambda_min: f64,
 
+    /// Which number shall be small [default: blocks-padded for a volume, surface-patches for a surface without a shape]
+    #[arg(long, value_enum)]
+    pub objective: Option<ObjectiveArg>,
+
+    /// How long `best` searches: moves tried per level of the polycube in each of its four chains
+    #[arg(long, value_name = "N", default_value_t = Effort::default().steps_per_level)]
+    pub steps: u32,
+
+    /// Trade blocks for closeness: from 1, the fewest blocks that `best` finds, to 0, the least displacement
+    #[arg(long, value_name = "S", value_parser = fraction, default_value_t = 1.0)]
+    pub simplicity: f64,
+
+    /// The farthest that `best` may move a corner, in units of the polycube [default: no limit]
+    #[arg(long, value_name = "D", value_parser = positive)]
+    pub max_displacement: Option<f64>,
+
+    /// Stop the search after this many seconds with the best found; the result may then differ from run to run
+    #[arg(long, value_name = "SECONDS", value_parser = positive)]
+    pub time_limit: Option<f64>,
+
     /// Who solves the integer problems
     #[arg(long, value_enum, default_value_t)]
     pub solver: SolverArg,
@@ -87,7 +108,7 @@ pub struct StrategyArg(pub Strategy);
 
 impl clap::ValueEnum for StrategyArg {
     fn value_variants<'a>() -> &'a [Self] {
-        &[Self(Strategy::Naive), Self(Strategy::Paper)]
+        &[Self(Strategy::Best), Self(Strategy::Paper), Self(Strategy::Naive)]
     }
 
     /// A strategy without a name here does not compile; name it above, too.
@@ -97,6 +118,9 @@ impl clap::ValueEnum for StrategyArg {
                 ("naive", "Round every level to the lattice, as usual pipelines do; may break the polycube")
             }
             Strategy::Paper => ("paper", "Align corners round by round (Algorithm 1 of the paper)"),
+            Strategy::Best => {
+                ("best", "Search for the smallest count, starting from Algorithm 1 and from greedy merging")
+            }
         };
         Some(PossibleValue::new(name).help(help))
     }
@@ -120,6 +144,25 @@ impl clap::ValueEnum for SolverArg {
     }
 }
 
+/// An [`Objective`] on the command line.
+#[derive(Clone, Copy, Debug)]
+pub struct ObjectiveArg(pub Objective);
+
+impl clap::ValueEnum for ObjectiveArg {
+    fn value_variants<'a>() -> &'a [Self] {
+        &[Self(Objective::BlocksPadded), Self(Objective::Blocks), Self(Objective::SurfacePatches)]
+    }
+
+    fn to_possible_value(&self) -> Option<PossibleValue> {
+        let (name, help) = match self.0 {
+            Objective::BlocksPadded => ("blocks-padded", "Blocks of the volume with one padding layer around it"),
+            Objective::Blocks => ("blocks", "Blocks of the volume"),
+            Objective::SurfacePatches => ("surface-patches", "Patches of the surface"),
+        };
+        Some(PossibleValue::new(name).help(help))
+    }
+}
+
 impl Args {
     fn options(&self) -> Options {
         Options {
@@ -127,6 +170,13 @@ impl Args {
             scale: self.scale.or(self.edge_length.map(f64::recip)),
             lambda_min: self.lambda_min,
             solver: self.solver.0,
+            objective: self.objective.map(|o| o.0),
+            effort: Effort {
+                steps_per_level: self.steps,
+                time_limit: self.time_limit.map(std::time::Duration::from_secs_f64),
+            },
+            simplicity: Some(self.simplicity),
+            max_displacement: self.max_displacement,
             tolerance: self.mesh.tolerance.get(),
         }
     }

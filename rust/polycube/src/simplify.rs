@@ -1,9 +1,9 @@
 //! The whole method: read the structure, align it, morph the mesh onto the result, and say what happened.
 
-use crate::align::{self, Alignment, Round, SolverKind, Strategy};
+use crate::align::{self, Alignment, Effort, Round, SolverKind, Strategy, TradeOff};
 use crate::context::Context;
 use crate::error::{Error, ErrorKind, Result};
-use crate::layout::{Counts, count};
+use crate::layout::{Counts, Objective, count};
 use crate::map::{Distortion, Flipped, distortion, flipped, morph};
 use crate::mesh::{Mesh, Point};
 use crate::structure::{Arrangement, Deviation, Polycube, Tolerance, Violation};
@@ -32,6 +32,15 @@ pub struct Options {
     pub lambda_min: f64,
     /// Who solves the integer problems.
     pub solver: SolverKind,
+    /// Which number shall be small; by default padded blocks for a volume and patches for a surface.
+    pub objective: Option<Objective>,
+    /// How long the strategy `best` searches.
+    pub effort: Effort,
+    /// How far the strategy `best` goes on the front between the fewest blocks (1, the default) and the least
+    /// displacement (0).
+    pub simplicity: Option<f64>,
+    /// The farthest that the strategy `best` may move a corner, in units of the polycube.
+    pub max_displacement: Option<f64>,
     /// How far the input may be from a polycube.
     pub tolerance: Tolerance,
 }
@@ -64,6 +73,8 @@ pub struct Report {
     pub after: Option<Counts>,
     /// The rounds of Algorithm 1.
     pub rounds: Vec<Round>,
+    /// The trade-off between the count and displacement that the strategy `best` met, from the fewest blocks on.
+    pub front: Vec<TradeOff>,
     /// Time spent, in seconds.
     pub seconds: Seconds,
     /// The farthest that a corner moved, in units of the input polycube.
@@ -123,12 +134,26 @@ pub fn simplify(input: &Input, options: &Options, context: &Context) -> Result<S
     let polycube = read_structure(input, &options.tolerance)?;
     let scale = options.scale.unwrap_or_else(|| default_scale(&polycube, input.polycube));
     let structured = start.elapsed().as_secs_f64();
-    let settings =
-        align::Options { strategy: options.strategy, scale, lambda_min: options.lambda_min, solver: options.solver };
+    let settings = align::Options {
+        strategy: options.strategy,
+        scale,
+        lambda_min: options.lambda_min,
+        solver: options.solver,
+        objective: options.objective.unwrap_or_else(|| default_objective(input.polycube)),
+        effort: options.effort,
+        simplicity: options.simplicity.unwrap_or(1.0),
+        max_displacement: options.max_displacement,
+    };
     let aligning = context.stage("align", 0.1, 0.5);
     let alignment = align::align(&polycube.structure, &polycube.placement, &settings, &aligning)?;
     let aligned = start.elapsed().as_secs_f64();
-    let report = report(&polycube, &alignment, options.strategy, scale);
+    let mut report = report(&polycube, &alignment, options.strategy, scale);
+    if let Some(limit) = options.max_displacement.filter(|&l| l < report.max_displacement) {
+        let least = report.max_displacement;
+        report
+            .notes
+            .push(format!("no result found moves the corners by {limit} or less; this one moves them by {least}"));
+    }
     let mut result = finish(input, polycube, alignment.levels, report, &context.stage("morph", 0.5, 1.0))?;
     let total = start.elapsed().as_secs_f64();
     let stages =
@@ -157,7 +182,8 @@ impl Simplified {
         let arrangement = Arrangement::new(&polycube.structure, &placement);
         let broken = arrangement.conflicts();
         let after = broken.is_empty().then(|| count(&arrangement));
-        let alignment = Alignment { levels, before: old.before, after, rounds: old.rounds.clone(), broken };
+        let (rounds, front) = (old.rounds.clone(), old.front.clone());
+        let alignment = Alignment { levels, before: old.before, after, rounds, broken, front };
         let aligned = start.elapsed().as_secs_f64();
         let report = report(polycube, &alignment, old.strategy, scale);
         let morphing = context.stage("morph", 0.2, 1.0);
@@ -203,6 +229,10 @@ fn first_of(violations: Vec<Violation>) -> Error {
         error.message = format!("{}; {others} more like it, see `polycube validate`", error.message);
     }
     error
+}
+
+fn default_objective(_mesh: &Mesh) -> Objective {
+    Objective::BlocksPadded
 }
 
 /// 1 for a polycube that lies on the lattice already, else one step per mean mesh edge.
@@ -256,6 +286,7 @@ fn report(polycube: &Polycube, alignment: &Alignment, strategy: Strategy, scale:
         before: alignment.before,
         after: alignment.after,
         rounds: alignment.rounds.clone(),
+        front: alignment.front.clone(),
         seconds: Seconds::default(),
         max_displacement: max_displacement(polycube, &alignment.levels, scale),
         flipped_elements: 0,
@@ -268,11 +299,7 @@ fn report(polycube: &Polycube, alignment: &Alignment, strategy: Strategy, scale:
 
 fn max_displacement(polycube: &Polycube, levels: &[i64], scale: f64) -> f64 {
     let after: Vec<f64> = levels.iter().map(|&x| x as f64 / scale).collect();
-    let moved = |c: u32| {
-        let [from, to] = [&polycube.placement, &after].map(|p| Point::from(polycube.structure.position(c, p)));
-        (to - from).norm()
-    };
-    (0..polycube.structure.corners.len() as u32).map(moved).fold(0.0, f64::max)
+    polycube.structure.max_displacement(&polycube.placement, &after)
 }
 
 /// Counts what the morph turned over and measures the map before and after.

@@ -35,6 +35,19 @@ pub struct Outcome {
 }
 
 impl Outcome {
+    /// A placement with the alignments that it has: levels of one axis with one coordinate.
+    pub fn of(structure: &Structure, placement: Placement) -> Self {
+        let mut classes = Classes::new(placement.len());
+        let levels = structure.levels.len() as u32;
+        for (a, b) in (0..levels).flat_map(|b| (0..b).map(move |a| (a, b))) {
+            let same_axis = structure.levels[a as usize].axis == structure.levels[b as usize].axis;
+            if same_axis && placement[a as usize] == placement[b as usize] {
+                classes.join(a, b);
+            }
+        }
+        Self { placement, classes, rounds: Vec::new() }
+    }
+
     /// The finalisation of section 6: as near to `targets` as the alignments found allow, with λ = 1.
     pub fn settle(
         &self,

@@ -14,6 +14,30 @@ pub use separatrices::Separatrices;
 
 use crate::structure::Arrangement;
 
+/// Which of the three numbers shall be small.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, serde::Serialize, serde::Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Objective {
+    /// [`Counts::blocks_padded`], for volumes.
+    #[default]
+    BlocksPadded,
+    /// [`Counts::blocks`].
+    Blocks,
+    /// [`Counts::surface_patches`], for surfaces.
+    SurfacePatches,
+}
+
+impl Counts {
+    /// The number that `objective` names.
+    pub fn of(&self, objective: Objective) -> usize {
+        match objective {
+            Objective::BlocksPadded => self.blocks_padded,
+            Objective::Blocks => self.blocks,
+            Objective::SurfacePatches => self.surface_patches,
+        }
+    }
+}
+
 /// Counts patches and blocks of an arrangement without conflicts. O(c) for c cells of its coarsest lattice.
 pub fn count(arrangement: &Arrangement) -> Counts {
     let lattice = Lattice::new(arrangement);

@@ -126,6 +126,15 @@ impl Structure {
         self.edges.iter().map(length).fold(f64::INFINITY, f64::min)
     }
 
+    /// The farthest that a corner moves between two placements.
+    pub fn max_displacement(&self, from: &[f64], to: &[f64]) -> f64 {
+        let moved = |c: u32| {
+            let (p, q) = (self.position(c, from), self.position(c, to));
+            (0..3).map(|a| (q[a] - p[a]) * (q[a] - p[a])).sum::<f64>().sqrt()
+        };
+        (0..self.corners.len() as u32).map(moved).fold(0.0, f64::max)
+    }
+
     /// Connected components of the surface: for every facet the number of its component, from 0.
     pub fn components(&self) -> Vec<u32> {
         let mut component = vec![u32::MAX; self.facets.len()];

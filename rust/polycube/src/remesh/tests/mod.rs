@@ -5,10 +5,16 @@ mod on_real_data;
 mod surface;
 
 use super::{Hexes, Remesher};
+use crate::align::Strategy;
 use crate::context::Context;
 use crate::generate::{Example, example};
 use crate::mesh::{CellKind, Cells, Mesh, Point};
 use crate::simplify::{Input, Options, Simplified, simplify};
+
+/// Algorithm 1, which takes less time than the default.
+fn paper() -> Options {
+    Options { strategy: Strategy::Paper, ..Options::default() }
+}
 
 /// A pair, simplified.
 struct Case {
@@ -20,7 +26,7 @@ struct Case {
 
 impl Case {
     fn new(name: String, pair: (Mesh, Mesh)) -> Self {
-        Self::with(&Options::default(), name, pair)
+        Self::with(&paper(), name, pair)
     }
 
     fn with(options: &Options, name: String, (polycube, shape): (Mesh, Mesh)) -> Self {

@@ -1,6 +1,6 @@
 //! Real pairs of shared data; without the folder these tests say so and pass (`POLYCUBE_REQUIRE_DATA=1`: fail).
 
-use super::{Case, quality};
+use super::{Case, paper, quality};
 use crate::align::Strategy;
 use crate::context::Context;
 use crate::mesh::read_pair;
@@ -47,7 +47,7 @@ fn published(name: &str) -> usize {
 #[test]
 fn meshes_of_real_pairs_have_the_reported_structure() {
     for (name, extension) in pairs().into_iter().filter(|(n, _)| n.contains("kitty") || n.contains("angel_1")) {
-        let case = load(&name, extension, &Options::default()).sized(6000, 1);
+        let case = load(&name, extension, &paper()).sized(6000, 1);
         super::counts::check(&case);
         super::surface::check(&case);
     }
@@ -60,8 +60,7 @@ fn meshes_of_real_pairs_have_the_reported_structure() {
 fn numbers_of_real_pairs() {
     let context = Context::default();
     let naive = std::env::var_os("POLYCUBE_NAIVE").is_some();
-    let strategy = if naive { Strategy::Naive } else { Strategy::default() };
-    let options = Options { strategy, ..Options::default() };
+    let options = if naive { Options { strategy: Strategy::Naive, ..paper() } } else { paper() };
     let only = std::env::var("POLYCUBE_ONLY").unwrap_or_default();
     for (name, extension) in pairs().into_iter().filter(|(n, _)| n.contains(&only)) {
         let start = Instant::now();

@@ -1,0 +1,141 @@
+//! Simulated annealing over orders of levels, counting blocks at every step.
+
+use super::front::Front;
+use super::moves::Moves;
+use super::ranks::Ranks;
+use crate::context::Context;
+use crate::error::Result;
+use crate::generate::SplitMix64;
+use crate::layout::{Objective, Rows};
+use crate::structure::Structure;
+use num_traits::PrimInt;
+use std::time::Instant;
+
+/// An order with what it counts and costs.
+#[derive(Clone, Debug, PartialEq)]
+pub struct State {
+    /// The order.
+    pub ranks: Ranks,
+    /// What the objective counts.
+    pub count: usize,
+    /// The least Σ corners · (x − target)² of each axis for this order, in squared units of the input.
+    pub shape: [f64; 3],
+}
+
+impl State {
+    /// Σ over the axes of `shape`.
+    pub fn shape_cost(&self) -> f64 {
+        self.shape.iter().sum()
+    }
+}
+
+/// What is searched, the same for every chain.
+pub struct Landscape<'a> {
+    /// The structure.
+    pub structure: &'a Structure,
+    /// Its moves.
+    pub moves: &'a Moves,
+    /// The number to make small.
+    pub objective: Objective,
+    /// The levels of the input.
+    pub targets: &'a [f64],
+    /// The least distance of two planes, in units of the input.
+    pub gap: f64,
+    /// The displacement of all corners, as a root mean square in units of the input, that doubles the count at weight 1.
+    pub unit: f64,
+    /// When to stop whatever is left to do.
+    pub deadline: Option<Instant>,
+}
+
+/// One run of annealing.
+#[derive(Clone, Copy)]
+pub struct Schedule {
+    /// Seed of the random numbers.
+    pub seed: u64,
+    /// Number of moves tried.
+    pub steps: u32,
+    /// First temperature, as a fraction of the count at the start.
+    pub hot: f64,
+    /// Last temperature, likewise.
+    pub cold: f64,
+    /// How much displacement counts, see [`Landscape::unit`].
+    pub weight: f64,
+}
+
+/// A walker on a landscape.
+pub struct Chain<'a, R> {
+    landscape: &'a Landscape<'a>,
+    rows: Rows<R>,
+    corners: f64,
+}
+
+impl<'a, R: PrimInt> Chain<'a, R> {
+    /// A walker; its work space is made once.
+    pub fn new(landscape: &'a Landscape<'a>) -> Self {
+        let corners = landscape.structure.corners.len() as f64;
+        Self { landscape, rows: Rows::new(landscape.structure), corners }
+    }
+
+    /// Judges an order; nothing if it is no valid polycube.
+    pub fn state(&mut self, ranks: Ranks) -> Option<State> {
+        let count = self.count(&ranks)?;
+        let shape = std::array::from_fn(|axis| self.shape(&ranks, axis));
+        Some(State { ranks, count, shape })
+    }
+
+    /// What the objective counts in an order; nothing if it is no valid polycube.
+    pub fn count(&mut self, ranks: &Ranks) -> Option<usize> {
+        self.rows.count(self.landscape.objective, &ranks.of_level, ranks.planes)
+    }
+
+    fn shape(&self, ranks: &Ranks, axis: usize) -> f64 {
+        ranks.shape_cost(self.landscape.structure, self.landscape.targets, self.landscape.gap, axis)
+    }
+
+    /// The count, raised by the displacement.
+    pub fn energy(&self, state: &State, weight: f64) -> f64 {
+        let displacement = (state.shape_cost() / self.corners).sqrt() / self.landscape.unit;
+        state.count as f64 * (1.0 + weight * displacement)
+    }
+
+    /// Walks from `start`, leaving every accepted state in `front`; the best state seen.
+    pub fn walk(&mut self, start: State, schedule: &Schedule, front: &mut Front, context: &Context) -> Result<State> {
+        let mut random = SplitMix64::new(schedule.seed);
+        let mut now = start.clone();
+        let mut energy = self.energy(&now, schedule.weight);
+        let (mut best, mut lowest) = (start, energy);
+        let scale = energy;
+        // Neither logarithms nor powers of the standard library are the same on every machine.
+        let cooling = libm::pow(schedule.cold / schedule.hot, 1.0 / f64::from(schedule.steps.max(1)));
+        let mut temperature = schedule.hot * scale;
+        for step in 0..schedule.steps {
+            if step % 128 == 0 {
+                context.tick(f64::from(step) / f64::from(schedule.steps))?;
+                if self.landscape.deadline.is_some_and(|d| Instant::now() >= d) {
+                    break;
+                }
+            }
+            temperature *= cooling;
+            let limit = energy - temperature * libm::log(random.unit().max(1e-12));
+            if let Some((next, its)) = self.attempt(&now, limit, schedule.weight, &mut random) {
+                (now, energy) = (next, its);
+                front.offer(&now);
+                if energy < lowest {
+                    (best, lowest) = (now.clone(), energy);
+                }
+            }
+        }
+        Ok(best)
+    }
+
+    /// A random neighbour of `now` and its energy, if it is valid and its energy at most `limit`.
+    fn attempt(&mut self, now: &State, limit: f64, weight: f64, random: &mut SplitMix64) -> Option<(State, f64)> {
+        let (ranks, axis) = self.landscape.moves.draw(&now.ranks, random)?;
+        let mut shape = now.shape;
+        shape[axis] = self.shape(&ranks, axis);
+        let count = self.count(&ranks)?;
+        let next = State { ranks, count, shape };
+        let energy = self.energy(&next, weight);
+        (energy <= limit).then_some((next, energy))
+    }
+}

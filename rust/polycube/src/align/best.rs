@@ -1,0 +1,148 @@
+//! The strategy `best`: Algorithm 1 and greedy merging, then annealing from both; the coarsest valid result wins.
+
+use super::anneal::{Chain, Landscape, Schedule, State};
+use super::front::Front;
+use super::greedy;
+use super::moves::Moves;
+use super::ranks::Ranks;
+use crate::context::Context;
+use crate::error::Result;
+use crate::layout::Objective;
+use crate::layout::Rows;
+use crate::structure::{Placement, Structure};
+use num_traits::PrimInt;
+use std::time::{Duration, Instant};
+
+/// How long the search may take.
+#[derive(Clone, Copy, Debug, PartialEq, serde::Serialize)]
+pub struct Effort {
+    /// Moves tried per level in each of the four chains; the result is the same for the same number.
+    pub steps_per_level: u32,
+    /// Stop after this time, with the best found; the result then depends on the machine.
+    pub time_limit: Option<Duration>,
+}
+
+impl Default for Effort {
+    fn default() -> Self {
+        Self { steps_per_level: 400, time_limit: None }
+    }
+}
+
+/// The chains, two from the result of Algorithm 1 and two from that of greedy merging, of which one each minds displacement.
+const CHAINS: [Schedule; 4] = [
+    Schedule { seed: 1, steps: 0, hot: 0.05, cold: 0.002, weight: 0.01 },
+    Schedule { seed: 2, steps: 0, hot: 0.1, cold: 0.002, weight: 0.01 },
+    Schedule { seed: 3, steps: 0, hot: 0.05, cold: 0.002, weight: 0.3 },
+    Schedule { seed: 4, steps: 0, hot: 0.05, cold: 0.002, weight: 2.0 },
+];
+
+/// The best order found, and the trade-offs met on the way.
+pub struct Found {
+    /// A placement with that order.
+    pub placement: Placement,
+    /// Orders between the coarsest and the input.
+    pub front: Front,
+}
+
+/// Whether [`search`] can handle a structure: it needs 126 levels or fewer on one axis.
+pub fn is_searchable(structure: &Structure) -> bool {
+    levels_along_rows(structure) <= Rows::<u128>::capacity()
+}
+
+fn levels_along_rows(structure: &Structure) -> usize {
+    let axis = Rows::<u128>::row_axis(structure);
+    structure.levels.iter().filter(|l| l.axis == axis).count()
+}
+
+/// Searches for the order with the smallest count, starting from `paper`, a valid placement, and from `input`.
+///
+/// The result counts no more than `paper`, than `input`, and than greedy merging from `input`.
+pub fn search(
+    structure: &Structure,
+    input: &[f64],
+    paper: &[f64],
+    objective: Objective,
+    effort: &Effort,
+    context: &Context,
+) -> Result<Found> {
+    let moves = Moves::new(structure);
+    let landscape = Landscape {
+        structure,
+        moves: &moves,
+        objective,
+        targets: input,
+        gap: structure.shortest_edge(input) / 2.0,
+        unit: diagonal(structure, input),
+        deadline: effort.time_limit.map(|limit| Instant::now() + limit),
+    };
+    let starts = [Ranks::new(structure, paper), Ranks::new(structure, input)];
+    if levels_along_rows(structure) <= Rows::<u64>::capacity() {
+        run::<u64>(&landscape, &starts, effort, context)
+    } else {
+        run::<u128>(&landscape, &starts, effort, context)
+    }
+}
+
+fn run<R: PrimInt + Send>(
+    landscape: &Landscape,
+    starts: &[Ranks; 2],
+    effort: &Effort,
+    context: &Context,
+) -> Result<Found> {
+    let mut chain = Chain::<R>::new(landscape);
+    let valid: Vec<State> = starts.iter().filter_map(|ranks| chain.state(ranks.clone())).collect();
+    let Some(input) = valid.last().cloned() else {
+        return Err(crate::Error::new(crate::ErrorKind::Internal, "the start of the search is not valid"));
+    };
+    let merged = greedy::merge(landscape.structure, landscape.moves, &mut chain, input, context)?;
+    let begin = [valid[0].clone(), merged.clone()];
+    let mut front = Front::default();
+    valid.iter().chain([&merged]).for_each(|s| front.offer(s));
+    let results = walk_all::<R>(landscape, &begin, effort, context)?;
+    let mut best = if merged.count < begin[0].count { merged } else { begin[0].clone() };
+    for (state, seen) in results {
+        front.join(seen);
+        if (state.count, state.shape_cost()) < (best.count, best.shape_cost()) {
+            best = state;
+        }
+    }
+    let placement = front.states().next().unwrap_or(&best).ranks.placement();
+    Ok(Found { placement, front })
+}
+
+/// All chains, two at a time. What they find does not depend on how they are scheduled.
+fn walk_all<R: PrimInt + Send>(
+    landscape: &Landscape,
+    begin: &[State; 2],
+    effort: &Effort,
+    context: &Context,
+) -> Result<Vec<(State, Front)>> {
+    let steps = effort.steps_per_level.saturating_mul(landscape.structure.levels.len() as u32);
+    let walk = |i: usize| {
+        let schedule = Schedule { steps, ..CHAINS[i] };
+        let mut front = Front::default();
+        let start = begin[i % 2].clone();
+        Chain::<R>::new(landscape).walk(start, &schedule, &mut front, context).map(|state| (state, front))
+    };
+    let mut results = Vec::new();
+    for first in (0..CHAINS.len()).step_by(2) {
+        let pair = std::thread::scope(|scope| {
+            let other = scope.spawn(|| walk(first + 1));
+            let own = walk(first);
+            [Some(own), other.join().ok()]
+        });
+        for result in pair.into_iter().flatten() {
+            results.push(result?);
+        }
+    }
+    Ok(results)
+}
+
+fn diagonal(structure: &Structure, placement: &[f64]) -> f64 {
+    let size = |axis: usize| {
+        let along = structure.levels.iter().zip(placement).filter(|(l, _)| l.axis == axis).map(|(_, &x)| x);
+        let (low, high) = along.fold((f64::INFINITY, f64::NEG_INFINITY), |(l, h), x| (l.min(x), h.max(x)));
+        high - low
+    };
+    (size(0) * size(0) + size(1) * size(1) + size(2) * size(2)).sqrt()
+}

@@ -1,0 +1,67 @@
+//! Algorithm 1 until a fresh start finds nothing more.
+
+use super::order::place_in_order;
+use super::paper::{self, Settings};
+use super::unit::Unit;
+use super::{Alignment, Options, Round, SolverKind, to_integers};
+use crate::context::Context;
+use crate::error::Result;
+use crate::layout::{Counts, count};
+use crate::structure::{Arrangement, Placement, Structure};
+
+/// Algorithm 1 from λ = 1 again and again until it finds nothing more, so that a second call changes nothing.
+pub(super) fn simplify(
+    structure: &Structure,
+    input: &[f64],
+    targets: &[f64],
+    before: Counts,
+    options: &Options,
+    context: &Context,
+) -> Result<Alignment> {
+    let solver = options.solver.solver();
+    let oblique_planes = options.solver == SolverKind::Linear;
+    let settings = Settings { lambda_min: options.lambda_min, solver: &*solver, oblique_planes };
+    let mut best = place_in_order(structure, input, targets, &*solver, context)?;
+    let mut after = before;
+    let mut rounds = Vec::new();
+    let mut from = input.to_vec();
+    loop {
+        let (found, counts, steps) = improve(structure, &from, input, &settings, context)?;
+        let improved = counts.of(options.objective) < after.of(options.objective);
+        if rounds.is_empty() || improved {
+            rounds.extend(steps);
+        }
+        if !improved {
+            break;
+        }
+        best = place_in_order(structure, &found, targets, &*solver, context)?;
+        from.clone_from(&best);
+        after = counts;
+    }
+    let levels = to_integers(&best);
+    Ok(Alignment { levels, before, after: Some(after), rounds, broken: Vec::new(), front: Vec::new() })
+}
+
+/// One run of Algorithm 1 on `from`, settled near `from` or, if that is as coarse, near `input`.
+fn improve(
+    structure: &Structure,
+    from: &[f64],
+    input: &[f64],
+    settings: &Settings,
+    context: &Context,
+) -> Result<(Placement, Counts, Vec<Round>)> {
+    let unit = Unit::of(structure, from);
+    let own = unit.apply(structure, from);
+    let outcome = paper::run(structure, &own, settings, context)?;
+    let near = outcome.settle(structure, &own, settings.solver, context)?;
+    let counts = count(&Arrangement::new(structure, &near));
+    let original = Unit::of(structure, input).apply(structure, input);
+    let faithful = outcome.settle(structure, &original, settings.solver, context)?;
+    let faithful_counts = count(&Arrangement::new(structure, &faithful));
+    let (placement, counts) = if faithful_counts.blocks_padded <= counts.blocks_padded {
+        (faithful, faithful_counts)
+    } else {
+        (near, counts)
+    };
+    Ok((placement, counts, outcome.rounds))
+}
