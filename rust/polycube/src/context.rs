@@ -98,6 +98,14 @@ impl Context {
         (self.shared.observer)(&self.stage, now.max(f64::from_bits(before)));
         Ok(())
     }
+
+    /// [`tick`](Self::tick) for step `i` of `count`, but only once in 1024 steps.
+    ///
+    /// # Errors
+    /// [`ErrorKind::Cancelled`] once the context was cancelled.
+    pub(crate) fn tick_every(&self, i: usize, count: usize) -> Result<()> {
+        if i.is_multiple_of(1024) { self.tick(i as f64 / count as f64) } else { Ok(()) }
+    }
 }
 
 #[cfg(test)]

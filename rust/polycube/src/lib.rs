@@ -1,7 +1,7 @@
 //! Turn a polycube into the coarsest good block structure there is.
 //!
 //! [`simplify`](simplify::simplify) is the way in. Data flows one way:
-//! [`mesh`] → [`structure`] → [`align`] → [`layout`] → [`map`].
+//! [`mesh`] → [`structure`] → [`align`] → [`layout`] → [`map`] → [`remesh`].
 
 pub mod align;
 pub mod context;
@@ -10,6 +10,7 @@ pub mod generate;
 pub mod layout;
 pub mod map;
 pub mod mesh;
+pub mod remesh;
 pub mod simplify;
 pub mod structure;
 

@@ -3,10 +3,10 @@
 use crate::align::{self, Alignment, Effort, Round, SolverKind, Strategy, TradeOff};
 use crate::context::Context;
 use crate::error::{Error, ErrorKind, Result};
-use crate::layout::{Counts, Objective};
+use crate::layout::{Counts, Objective, count};
 use crate::map::{Distortion, Flipped, distortion, flipped, morph};
 use crate::mesh::{Mesh, Point};
-use crate::structure::{Deviation, Polycube, Tolerance, Violation};
+use crate::structure::{Arrangement, Deviation, Polycube, Tolerance, Violation};
 use std::time::Instant;
 
 /// What is simplified.
@@ -154,17 +154,61 @@ pub fn simplify(input: &Input, options: &Options, context: &Context) -> Result<S
             .notes
             .push(format!("no result found moves the corners by {limit} or less; this one moves them by {least}"));
     }
-    let mut result = None;
-    if report.valid {
-        let mesh = fit(&polycube, input.polycube, &alignment.levels, scale, &context.stage("morph", 0.5, 1.0))?;
-        judge(&mut report, input, &polycube, &mesh)?;
-        result = Some(mesh);
-    }
+    let mut result = finish(input, polycube, alignment.levels, report, &context.stage("morph", 0.5, 1.0))?;
     let total = start.elapsed().as_secs_f64();
     let stages =
         Seconds { structure: structured, align: aligned - structured, morph: total - aligned, ..Seconds::default() };
-    report.seconds = Seconds { total, ..stages };
-    Ok(Simplified { input: polycube, polycube: result, levels: alignment.levels, report })
+    result.report.seconds = Seconds { total, ..stages };
+    Ok(result)
+}
+
+impl Simplified {
+    /// The same result at another scale (lattice steps per unit of the input): the same block structure, on a finer or
+    /// coarser lattice. `input` must be what was simplified. Much faster than [`simplify`]: the order of the levels is known.
+    ///
+    /// # Errors
+    /// [`ErrorKind::Mismatch`] if `input` has other cells; those of [`align::rescale`]; [`ErrorKind::Cancelled`].
+    pub fn rescaled(&self, input: &Input, scale: f64, context: &Context) -> Result<Self> {
+        check_fit(input)?;
+        if input.polycube.points.len() != self.input.vertex_levels.len() {
+            return Err(Error::new(ErrorKind::Mismatch, "this is not the polycube that was simplified"));
+        }
+        let start = Instant::now();
+        let Self { input: polycube, report: old, .. } = self;
+        let options = align::Options { strategy: old.strategy, scale, ..align::Options::default() };
+        let aligning = context.stage("align", 0.0, 0.2);
+        let levels = align::rescale(&polycube.structure, &polycube.placement, &self.levels, &options, &aligning)?;
+        let placement: Vec<f64> = levels.iter().map(|&x| x as f64).collect();
+        let arrangement = Arrangement::new(&polycube.structure, &placement);
+        let broken = arrangement.conflicts();
+        let after = broken.is_empty().then(|| count(&arrangement));
+        let (rounds, front) = (old.rounds.clone(), old.front.clone());
+        let alignment = Alignment { levels, before: old.before, after, rounds, broken, front };
+        let aligned = start.elapsed().as_secs_f64();
+        let report = report(polycube, &alignment, old.strategy, scale);
+        let morphing = context.stage("morph", 0.2, 1.0);
+        let mut result = finish(input, polycube.clone(), alignment.levels, report, &morphing)?;
+        let total = start.elapsed().as_secs_f64();
+        result.report.seconds = Seconds { align: aligned, morph: total - aligned, total, ..old.seconds };
+        Ok(result)
+    }
+}
+
+/// Morphs the mesh onto the levels if they are valid, and judges it.
+fn finish(
+    input: &Input,
+    polycube: Polycube,
+    levels: Vec<i64>,
+    mut report: Report,
+    context: &Context,
+) -> Result<Simplified> {
+    let mut result = None;
+    if report.valid {
+        let mesh = fit(&polycube, input.polycube, &levels, report.scale, context)?;
+        judge(&mut report, input, &polycube, &mesh)?;
+        result = Some(mesh);
+    }
+    Ok(Simplified { input: polycube, polycube: result, levels, report })
 }
 
 fn check_fit(input: &Input) -> Result<()> {

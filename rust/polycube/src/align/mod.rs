@@ -87,6 +87,28 @@ pub fn align(structure: &Structure, input: &[f64], options: &Options, context: &
     }
 }
 
+/// The alignment at another scale: the order of `levels`, which [`align`] found at any scale, as near as possible to `input`
+/// at the scale of `options`. Where the order does not matter ([`Strategy::Naive`]), what [`align`] itself would give.
+///
+/// Takes one integer problem instead of the many of [`align`]. λ is not used.
+///
+/// # Errors
+/// [`ErrorKind::Option`] for a scale that is not positive or too large for the lattice, [`ErrorKind::Cancelled`].
+pub fn rescale(
+    structure: &Structure,
+    input: &[f64],
+    levels: &[i64],
+    options: &Options,
+    context: &Context,
+) -> Result<Vec<i64>> {
+    let targets = scaled(input, options.scale)?;
+    if options.strategy == Strategy::Naive {
+        return Ok(targets.iter().map(|x| x.round() as i64).collect());
+    }
+    let valid: Placement = levels.iter().map(|&x| x as f64).collect();
+    Ok(to_integers(&order::place_in_order(structure, &valid, &targets, &*options.solver.solver(), context)?))
+}
+
 fn scaled(input: &[f64], scale: f64) -> Result<Placement> {
     let targets: Placement = input.iter().map(|x| x * scale).collect();
     let bound = Problem::MAX_LEVEL as f64 / 2.0;

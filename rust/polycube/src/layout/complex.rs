@@ -54,6 +54,10 @@ impl<'a> Complex<'a> {
         Counts { surface_patches: separatrices.count_patches(), blocks, blocks_padded: blocks + faces }
     }
 
+    pub(super) fn lattice(&self) -> &Lattice {
+        self.lattice
+    }
+
     /// Whether the lattice face at the lower side of `cell` along `axis` separates two blocks.
     pub fn is_sheet(&self, cell: usize, axis: usize) -> bool {
         self.sheets[cell] >> axis & 1 == 1
@@ -87,13 +91,13 @@ impl<'a> Complex<'a> {
     }
 
     /// Blocks are boxes, so each is counted by the one cell at its lowest corner.
-    fn starts_block(&self, cell: usize) -> bool {
+    pub(super) fn starts_block(&self, cell: usize) -> bool {
         self.lattice.is_solid(cell)
             && (0..3).all(|axis| self.is_sheet(cell, axis) || !self.lattice.is_solid(cell - self.lattice.stride(axis)))
     }
 
     /// Faces of the complex on the surface are rectangles, each counted by its lattice face at the lowest corner.
-    fn starts_surface_face(&self, cell: usize, axis: usize) -> bool {
+    pub(super) fn starts_surface_face(&self, cell: usize, axis: usize) -> bool {
         let below = cell.wrapping_sub(self.lattice.stride(axis));
         if below >= self.lattice.len() || self.lattice.is_solid(cell) == self.lattice.is_solid(below) {
             return false;

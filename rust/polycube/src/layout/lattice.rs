@@ -68,6 +68,11 @@ impl Lattice {
         self.planes[axis].partition_point(|&p| p < coordinate) + 1
     }
 
+    /// Where the lattice vertex of the ranks `at` lies; every rank from 1 to the number of planes.
+    pub fn position(&self, at: [usize; 3]) -> [f64; 3] {
+        std::array::from_fn(|a| self.planes[a][at[a] - 1])
+    }
+
     /// Puts +1 where the surface is entered along X and −1 where it is left, and sums along X.
     fn fill(&mut self, arrangement: &Arrangement) {
         let mut change = vec![0_i8; self.size.iter().product()];

@@ -1,13 +1,16 @@
 //! Base complex and patches of a placed structure, and how many there are.
 
+mod boxes;
 mod complex;
 mod lattice;
 mod rows;
 mod separatrices;
 
+pub use boxes::{Block, Patch};
 pub use complex::{Complex, Counts};
 pub use lattice::Lattice;
 pub use rows::Rows;
+pub use separatrices::Separatrices;
 
 use crate::structure::Arrangement;
 

@@ -46,11 +46,19 @@ impl<'a> Separatrices<'a> {
         faces.filter(|&(c, axis)| self.starts_patch(c, axis)).count()
     }
 
-    fn starts_patch(&self, cell: usize, axis: usize) -> bool {
+    pub(super) fn lattice(&self) -> &Lattice {
+        self.lattice
+    }
+
+    pub(super) fn starts_patch(&self, cell: usize, axis: usize) -> bool {
         let below = cell.wrapping_sub(self.lattice.stride(axis));
         let on_surface = below < self.lattice.len() && self.lattice.is_solid(cell) != self.lattice.is_solid(below);
-        let separates = |along: usize| self.is_marked(cell, along) || self.solid_around(cell, along) != 2;
-        on_surface && separates((axis + 1) % 3) && separates((axis + 2) % 3)
+        on_surface && self.separates(cell, (axis + 1) % 3) && self.separates(cell, (axis + 2) % 3)
+    }
+
+    /// Whether the lattice edge above `vertex` along `axis`, on the surface, borders patches.
+    pub(super) fn separates(&self, vertex: usize, axis: usize) -> bool {
+        self.is_marked(vertex, axis) || self.solid_around(vertex, axis) != 2
     }
 
     fn is_marked(&self, vertex: usize, axis: usize) -> bool {

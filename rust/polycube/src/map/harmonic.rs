@@ -13,7 +13,7 @@ const KNOWN: u32 = u32::MAX;
 ///
 /// # Errors
 /// [`ErrorKind::Polycube`] naming a vertex no chain of unknowns joins to a known one; those of the solver.
-pub(super) fn extend_harmonic(
+pub(crate) fn extend_harmonic(
     weights: &Rows,
     known: &[[bool; 3]],
     field: &mut [Values<3>],

@@ -20,4 +20,6 @@ pub(crate) mod testing;
 
 pub use distortion::{Distortion, distortion};
 pub use flipped::{Flipped, flipped};
+pub(crate) use harmonic::extend_harmonic;
 pub use morph::morph;
+pub(crate) use sparse::Rows;

@@ -1,11 +1,11 @@
 //! Sparse matrices by rows, and how the star of each vertex fills one row.
 
 /// One value per right-hand side.
-pub(super) type Values<const N: usize> = [f64; N];
+pub(crate) type Values<const N: usize> = [f64; N];
 
 /// A sparse matrix by rows; the columns of a row ascend.
 #[derive(Clone, Debug, Default, PartialEq)]
-pub(super) struct Rows {
+pub(crate) struct Rows {
     start: Vec<usize>,
     columns: Vec<u32>,
     values: Vec<f64>,
@@ -13,13 +13,13 @@ pub(super) struct Rows {
 
 impl Rows {
     /// A matrix without rows.
-    pub(super) fn new() -> Self {
+    pub(crate) fn new() -> Self {
         Self { start: vec![0], ..Self::default() }
     }
 
     /// Adds the next row: sorts `entries` by column, sums those of one column in the order given,
     /// and leaves `entries` empty.
-    pub(super) fn push(&mut self, entries: &mut Vec<(u32, f64)>) {
+    pub(crate) fn push(&mut self, entries: &mut Vec<(u32, f64)>) {
         let first = self.columns.len();
         // Stable, so that rounding depends on the order of the cells alone.
         entries.sort_by_key(|&(column, _)| column);

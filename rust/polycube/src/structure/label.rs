@@ -14,6 +14,12 @@ impl Label {
         (0..6).contains(&index).then_some(Self(index as u8))
     }
 
+    /// The label that looks along `axis` (0, 1 or 2), upwards or downwards.
+    pub(crate) fn facing(axis: usize, upwards: bool) -> Self {
+        debug_assert!(axis < 3, "there is no axis {axis}");
+        Self((2 * axis) as u8 + u8::from(!upwards))
+    }
+
     /// The label whose direction is closest to `normal`, and the cosine of the angle between them.
     /// Of several equally close ones the first in the order of the labels.
     pub fn nearest(normal: &Vector3<f64>) -> (Self, f64) {

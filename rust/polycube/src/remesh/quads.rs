@@ -1,0 +1,81 @@
+//! Quadrilaterals: the lattice's surface mapped onto the shape (paper, section 7, "Coarse Quad-Layouts").
+
+use super::Remesher;
+use super::embedding::Embedding;
+use super::site::Site;
+use crate::context::Context;
+use crate::error::Result;
+use crate::mesh::{CellField, Cells, Mesh, Point};
+
+/// A quadrilateral mesh of the shape's surface. Fields have one value per quadrilateral.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Quads {
+    /// The mesh, in the units of the shape, counter-clockwise seen from outside. Its vertices lie on the shape.
+    pub mesh: Mesh,
+    /// The same vertices on the polycube, in lattice units.
+    pub polycube: Vec<Point>,
+    /// The corner, edge or facet that each vertex lies on.
+    pub sites: Vec<Site>,
+    /// The label, 0 to 5.
+    pub label: Vec<i8>,
+    /// The patch, from 0: as many as `surface_patches`.
+    pub patch_id: Vec<u32>,
+    /// The padding block below it in the padded base complex: from `blocks` to `blocks_padded`.
+    pub block_id: Vec<u32>,
+    /// How many vertices the map did not hold, so that the nearest point of it was taken.
+    pub guessed: usize,
+}
+
+impl Quads {
+    /// The fields `label`, `patch_id` and `block_id` for mesh files.
+    pub fn fields(&self) -> Vec<CellField> {
+        let numbers = |ids: &[u32]| ids.iter().map(|&i| i as i32).collect();
+        let labels = self.label.iter().map(|&l| i32::from(l)).collect();
+        vec![
+            CellField::integer("label", labels),
+            CellField::integer("patch_id", numbers(&self.patch_id)),
+            CellField::integer("block_id", numbers(&self.block_id)),
+        ]
+    }
+}
+
+impl Remesher<'_> {
+    /// The surface of the lattice on the shape: corners go to corners, lattice vertices of an edge along the edge, others
+    /// through the triangles of their facet. O(n log n) for n quadrilaterals.
+    ///
+    /// # Errors
+    /// [`ErrorKind::Cancelled`](crate::ErrorKind::Cancelled).
+    pub fn quads(&self, context: &Context) -> Result<Quads> {
+        let grid = &self.grid;
+        let embedding = self.surface_points(context)?;
+        let ring = grid.surface_vertices();
+        let mut number = vec![0; grid.vertices.len()];
+        for (i, &v) in (0..).zip(&ring) {
+            number[v as usize] = i;
+        }
+        let quads = grid.squares.iter().map(|s| s.vertices.map(|v| number[v as usize])).collect();
+        Ok(Quads {
+            mesh: Mesh {
+                points: ring.iter().map(|&v| embedding.points[v as usize]).collect(),
+                cells: Cells::Quads(quads),
+            },
+            polycube: ring.iter().map(|&v| Point::from(grid.position(v as usize))).collect(),
+            sites: ring.iter().map(|&v| grid.sites[v as usize]).collect(),
+            label: grid.squares.iter().map(|s| s.label.index() as i8).collect(),
+            patch_id: grid.squares.iter().map(|s| s.patch).collect(),
+            block_id: grid.squares.iter().map(|s| grid.blocks.len() as u32 + s.face).collect(),
+            guessed: embedding.guessed,
+        })
+    }
+
+    /// The lattice's vertices with those on the surface put on the shape.
+    pub(super) fn surface_points(&self, context: &Context) -> Result<Embedding> {
+        let grid = &self.grid;
+        let mut embedding = Embedding::new(grid.vertices.len());
+        for (v, &site) in grid.sites.iter().enumerate().filter(|(_, site)| site.is_surface()) {
+            context.tick_every(v, grid.sites.len())?;
+            embedding.place(v, self.surface.place(site, grid.position(v)));
+        }
+        Ok(embedding)
+    }
+}

@@ -1,0 +1,133 @@
+//! The scale of the lattice for a wanted size of the mesh.
+
+use crate::align::{self, Options};
+use crate::context::Context;
+use crate::error::{Error, ErrorKind, Result};
+use crate::mesh::Point;
+use crate::simplify::{Input, Simplified};
+use crate::structure::{Arrangement, Structure, area_vector};
+
+/// How fine a mesh shall be.
+#[derive(Clone, Copy, Debug, PartialEq, serde::Serialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Size {
+    /// Lattice steps per unit of the input polycube, above 0.
+    Scale(f64),
+    /// Mean length of the mesh's edges in units of the shape, above 0.
+    EdgeLength(f64),
+    /// How many hexahedra there shall be, padding included; at least 1.
+    Hexes(usize),
+}
+
+/// A count within this part of the wanted one ends the search.
+const CLOSE: f64 = 0.005;
+
+/// The scale at which a simplified polycube gives meshes of the wanted `size`, for
+/// [`Simplified::rescaled`] or [`Options::scale`](crate::Options::scale). The block structure is the same at every scale.
+///
+/// For [`Size::Hexes`] the scale is searched for until the count with `padding` layers is within half a percent of
+/// the wanted one, or else the closest found is taken: levels are integers, so thin polycubes have few counts to choose
+/// from, and there is a least count. Takes up to 40 placements of the levels, some milliseconds each.
+///
+/// # Errors
+/// [`ErrorKind::Option`] for a size that is not positive and finite; those of [`align::rescale`].
+pub fn scale_for(input: &Input, simplified: &Simplified, size: Size, padding: usize, context: &Context) -> Result<f64> {
+    let positive = |x: f64, what: &str| {
+        if x.is_finite() && x > 0.0 {
+            return Ok(x);
+        }
+        Err(Error::new(ErrorKind::Option, format!("{what} {x} is not a positive number")))
+    };
+    match size {
+        Size::Scale(scale) => positive(scale, "the scale"),
+        Size::EdgeLength(length) => {
+            let shape = input.shape.unwrap_or(input.polycube);
+            let stretch = (area(simplified, &shape.points) / area(simplified, &input.polycube.points)).sqrt();
+            Ok(stretch / positive(length, "the edge length")?)
+        }
+        Size::Hexes(0) => Err(Error::new(ErrorKind::Option, "a mesh has at least one hexahedron")),
+        Size::Hexes(count) => Search { simplified, padding, wanted: count as f64 }.run(context),
+    }
+}
+
+/// How many hexahedra the lattice has with `padding` layers, when the levels of a valid polycube lie at `levels`.
+pub fn count_hexes(structure: &Structure, levels: &[i64], padding: usize) -> u64 {
+    let placement: Vec<f64> = levels.iter().map(|&x| x as f64).collect();
+    let arrangement = Arrangement::new(structure, &placement);
+    let (volume, surface) = volume_and_surface(&arrangement);
+    (volume + padding as f64 * surface) as u64
+}
+
+/// Volume and surface of a polycube, by the divergence theorem along X.
+fn volume_and_surface(arrangement: &Arrangement) -> (f64, f64) {
+    let label = |facet: u32| arrangement.structure().facets[facet as usize].label;
+    let tiles = arrangement.tiles().map(|(facet, low, high)| {
+        let (u, v) = ((label(facet).axis() + 1) % 3, (label(facet).axis() + 2) % 3);
+        let area = (high[u] - low[u]) * (high[v] - low[v]);
+        let height = if label(facet).axis() == 0 { f64::from(label(facet).sign()) * low[0] } else { 0.0 };
+        (area * height, area)
+    });
+    tiles.fold((0.0, 0.0), |sum, t| (sum.0 + t.0, sum.1 + t.1))
+}
+
+fn area(simplified: &Simplified, points: &[Point]) -> f64 {
+    simplified.input.surface.faces().iter().map(|f| area_vector(points, f).norm() / 2.0).sum()
+}
+
+struct Search<'a> {
+    simplified: &'a Simplified,
+    padding: usize,
+    wanted: f64,
+}
+
+impl Search<'_> {
+    const STEPS: usize = 40;
+
+    /// Brackets the wanted count around the scale at which it would be right for real coordinates, and bisects.
+    fn run(&self, context: &Context) -> Result<f64> {
+        let guess = self.guess();
+        let (mut low, mut high) = (guess / 16.0, guess * 2.0);
+        let mut scale = guess;
+        let mut best = (f64::INFINITY, guess);
+        for step in 0..Self::STEPS {
+            context.tick(step as f64 / Self::STEPS as f64)?;
+            let error = (self.count(scale, context)? / self.wanted).ln();
+            if error.abs() < best.0 {
+                best = (error.abs(), scale);
+            }
+            if best.0 < CLOSE || high / low < 1.0 + 1e-9 {
+                break;
+            }
+            if error > 0.0 {
+                high = scale
+            } else {
+                low = scale
+            }
+            // Close to a jump of the count both ends stay; the middle of the logarithms halves the rest.
+            let next = scale * (-error / 3.0).exp();
+            let inside = step < 4 && low < next && next < high;
+            scale = if inside { next } else { (low * high).sqrt() };
+        }
+        Ok(best.1)
+    }
+
+    fn count(&self, scale: f64, context: &Context) -> Result<f64> {
+        let Simplified { input, levels, report, .. } = self.simplified;
+        let options = Options { strategy: report.strategy, scale, ..Options::default() };
+        let levels = align::rescale(&input.structure, &input.placement, levels, &options, context)?;
+        Ok((count_hexes(&input.structure, &levels, self.padding) as f64).max(0.5))
+    }
+
+    /// The root of `volume s³ + padding · surface s² = wanted`.
+    fn guess(&self) -> f64 {
+        let Simplified { input, .. } = self.simplified;
+        let (volume, surface) = volume_and_surface(&Arrangement::new(&input.structure, &input.placement));
+        let count = |s: f64| volume * s * s * s + self.padding as f64 * surface * s * s;
+        let (mut low, mut high) = (0.0, (self.wanted / volume).cbrt());
+        for _ in 0..100 {
+            let middle = f64::midpoint(low, high);
+            if count(middle) < self.wanted { low = middle } else { high = middle }
+        }
+        high
+    }
+}

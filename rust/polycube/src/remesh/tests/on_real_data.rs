@@ -1,0 +1,107 @@
+//! Real pairs of shared data; without the folder these tests say so and pass (`POLYCUBE_REQUIRE_DATA=1`: fail).
+
+use super::{Case, paper, quality};
+use crate::align::Strategy;
+use crate::context::Context;
+use crate::mesh::read_pair;
+use crate::remesh::{Remesher, hausdorff};
+use crate::simplify::Options;
+use std::path::PathBuf;
+use std::time::Instant;
+
+/// Names and files of the pairs: as tetrahedra where there are some, else as surfaces.
+fn pairs() -> Vec<(String, &'static str)> {
+    let Ok(entries) = std::fs::read_dir(folder()) else {
+        let required = std::env::var("POLYCUBE_REQUIRE_DATA").is_ok_and(|v| v == "1");
+        assert!(!required, "no data in {}", folder().display());
+        println!("skipped: no data");
+        return Vec::new();
+    };
+    let names: Vec<String> = entries.map(|e| e.unwrap().file_name().to_string_lossy().into_owned()).collect();
+    let mut pairs: Vec<(String, &str)> =
+        names.iter().filter_map(|n| Some((n.strip_suffix(".polycube.mesh")?.to_owned(), "mesh"))).collect();
+    let surfaces = names.iter().filter_map(|n| Some((n.strip_suffix(".polycube.obj")?.to_owned(), "obj")));
+    pairs.extend(surfaces.collect::<Vec<_>>());
+    pairs.sort();
+    pairs
+}
+
+fn folder() -> PathBuf {
+    let beside = PathBuf::from(env!("CARGO_MANIFEST_DIR")).join("../../../shared/data");
+    std::env::var_os("POLYCUBE_DATA").map_or(beside, PathBuf::from)
+}
+
+fn load(name: &str, extension: &str, options: &Options) -> Case {
+    let file = |part: &str| folder().join(format!("{name}.{part}.{extension}"));
+    Case::with(options, format!("{name}.{extension}"), read_pair(&file("polycube"), &file("shape")).unwrap())
+}
+
+/// The published number of hexahedra.
+fn published(name: &str) -> usize {
+    let text = std::fs::read_to_string(folder().join("reference.json")).unwrap();
+    let all: serde_json::Value = serde_json::from_str(&text).unwrap();
+    let own = &all[name];
+    own["paper_output"]["hexes"].as_u64().or(own["source"]["hexes"].as_u64()).unwrap() as usize
+}
+
+#[test]
+fn meshes_of_real_pairs_have_the_reported_structure() {
+    for (name, extension) in pairs().into_iter().filter(|(n, _)| n.contains("kitty") || n.contains("angel_1")) {
+        let case = load(&name, extension, &paper()).sized(6000, 1);
+        super::counts::check(&case);
+        super::surface::check(&case);
+    }
+}
+
+/// Run with `cargo test --release -p polycube -- --ignored --nocapture numbers_of_real_pairs`, for the unsimplified
+/// polycubes with `POLYCUBE_NAIVE=1`, for one pair with its name in `POLYCUBE_ONLY`.
+#[test]
+#[ignore = "prints numbers; run in release mode"]
+fn numbers_of_real_pairs() {
+    let context = Context::default();
+    let naive = std::env::var_os("POLYCUBE_NAIVE").is_some();
+    let options = if naive { Options { strategy: Strategy::Naive, ..paper() } } else { paper() };
+    let only = std::env::var("POLYCUBE_ONLY").unwrap_or_default();
+    for (name, extension) in pairs().into_iter().filter(|(n, _)| n.contains(&only)) {
+        let start = Instant::now();
+        let mut last = start;
+        let mut lap = || {
+            let now = Instant::now();
+            let seconds = (now - std::mem::replace(&mut last, now)).as_secs_f64();
+            format!("{seconds:.2}")
+        };
+        let case = load(&name, extension, &options);
+        let simplified = lap();
+        let case = case.sized(published(&name), 1);
+        let sized = lap();
+        let remesher: Remesher = case.remesher();
+        let grid = lap();
+        let quads = remesher.quads(&context).unwrap();
+        let quad_time = lap();
+        let hexes = remesher.hexes(1, &context).unwrap();
+        let hex_time = lap();
+        let distance = hausdorff(&quads.mesh, &case.shape, &context).unwrap();
+        let diagonal = diagonal(&case);
+        let (inverted, worst, mean) = quality(&hexes);
+        let blocks = super::distinct(&crate::remesh::base_complex(super::cells(&hexes.mesh)).unwrap());
+        assert_eq!(blocks, case.simplified.report.after.unwrap().blocks_padded, "{}", case.name);
+        println!(
+            "{} wanted {} got {} inverted {inverted} min {worst:.3} avg {mean:.3} guessed {} flipped in {} hausdorff {:.3}% | simplify {simplified} size {sized} grid {grid} quads {quad_time} hexes {hex_time} hausdorff {} total {:.2} | {:?}",
+            case.name,
+            published(&name),
+            hexes.mesh.cells.len(),
+            hexes.guessed,
+            case.simplified.report.flipped_elements,
+            100.0 * distance / diagonal,
+            lap(),
+            start.elapsed().as_secs_f64(),
+            case.simplified.report.after.unwrap(),
+        );
+    }
+}
+
+fn diagonal(case: &Case) -> f64 {
+    let fold = |a: usize, f: fn(f64, f64) -> f64, s: f64| case.shape.points.iter().map(|p| p[a]).fold(s, f);
+    let side = |a: usize| fold(a, f64::max, f64::NEG_INFINITY) - fold(a, f64::min, f64::INFINITY);
+    (0..3).map(|a| side(a) * side(a)).sum::<f64>().sqrt()
+}
