@@ -9,6 +9,7 @@ pub mod generate;
 pub mod layout;
 pub mod map;
 pub mod mesh;
+pub mod optimise;
 pub mod structure;
 
 pub use context::Context;
