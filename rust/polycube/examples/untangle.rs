@@ -2,7 +2,9 @@
 //! Makes the lattice of the polycube, takes it to the shape tetrahedron by tetrahedron, lets its surface slide, and says what became of it.
 
 use polycube::mesh::{Cells, Face, Mesh, Point, read};
-use polycube::optimise::{CurveGuide, Elements, Freedom, Guide, Settings, SurfaceGuide, cell_qualities, optimise, statistics};
+use polycube::optimise::{
+    CurveGuide, Elements, Freedom, Guide, Settings, SurfaceGuide, cell_qualities, optimise, statistics,
+};
 use polycube::{Context, Result};
 use std::collections::BTreeMap;
 use std::path::Path;
@@ -69,12 +71,18 @@ fn sample(polycube: &Mesh, shape: &Mesh, step: f64) -> BTreeMap<[i64; 3], Point>
     let mut images = BTreeMap::new();
     for tet in tets {
         let p = tet.map(|v| polycube.points[v as usize]);
-        let low: Vec<i64> = (0..3).map(|a| (p.iter().map(|p| p[a]).fold(1e30, f64::min) / step * 2.0 - 1e-6).ceil() as i64).collect();
-        let high: Vec<i64> = (0..3).map(|a| (p.iter().map(|p| p[a]).fold(-1e30, f64::max) / step * 2.0 + 1e-6).floor() as i64).collect();
-        for (i, j, k) in (low[0]..=high[0]).flat_map(|i| (low[1]..=high[1]).flat_map(move |j| (i..=i).map(move |i| (i, j)))).flat_map(|(i, j)| (low[2]..=high[2]).map(move |k| (i, j, k))) {
+        let low: Vec<i64> =
+            (0..3).map(|a| (p.iter().map(|p| p[a]).fold(1e30, f64::min) / step * 2.0 - 1e-6).ceil() as i64).collect();
+        let high: Vec<i64> =
+            (0..3).map(|a| (p.iter().map(|p| p[a]).fold(-1e30, f64::max) / step * 2.0 + 1e-6).floor() as i64).collect();
+        for (i, j, k) in (low[0]..=high[0])
+            .flat_map(|i| (low[1]..=high[1]).flat_map(move |j| (i..=i).map(move |i| (i, j))))
+            .flat_map(|(i, j)| (low[2]..=high[2]).map(move |k| (i, j, k)))
+        {
             let x = Point::new(i as f64, j as f64, k as f64) * (step / 2.0);
             if let Some(w) = barycentric(&p, &x) {
-                let image: nalgebra::Vector3<f64> = tet.iter().zip(w).map(|(v, w)| shape.points[*v as usize].coords * w).sum();
+                let image: nalgebra::Vector3<f64> =
+                    tet.iter().zip(w).map(|(v, w)| shape.points[*v as usize].coords * w).sum();
                 images.insert([i, j, k], Point::from(image));
             }
         }
@@ -87,13 +95,16 @@ fn lattice(polycube: &Mesh, shape: &Mesh, step: f64) -> Lattice {
     let mut number = BTreeMap::new();
     let mut lattice = Lattice { points: vec![], cells: vec![] };
     for at in images.keys().filter(|at| at.iter().all(|x| x.rem_euclid(2) == 1)) {
-        let offsets = [[-1, -1, -1], [1, -1, -1], [1, 1, -1], [-1, 1, -1], [-1, -1, 1], [1, -1, 1], [1, 1, 1], [-1, 1, 1]];
+        let offsets =
+            [[-1, -1, -1], [1, -1, -1], [1, 1, -1], [-1, 1, -1], [-1, -1, 1], [1, -1, 1], [1, 1, 1], [-1, 1, 1]];
         let keys = offsets.map(|o| [at[0] + o[0], at[1] + o[1], at[2] + o[2]]);
         if keys.iter().all(|k| images.contains_key(k)) {
-            lattice.cells.push(keys.map(|k| *number.entry(k).or_insert_with(|| {
-                lattice.points.push(images[&k]);
-                lattice.points.len() as u32 - 1
-            })));
+            lattice.cells.push(keys.map(|k| {
+                *number.entry(k).or_insert_with(|| {
+                    lattice.points.push(images[&k]);
+                    lattice.points.len() as u32 - 1
+                })
+            }));
         }
     }
     lattice
@@ -137,7 +148,8 @@ fn charts(faces: &[(Vec<u32>, u8)]) -> Charts {
 
 fn hexes(name: &str, polycube: &Mesh, shape: &Mesh, step: f64, padding: bool) -> Result<()> {
     let mut lattice = lattice(polycube, shape, step);
-    let faces: Vec<Vec<u32>> = Cells::Hexahedra(lattice.cells.clone()).boundary()?.iter().map(|f| f.vertices().to_vec()).collect();
+    let faces: Vec<Vec<u32>> =
+        Cells::Hexahedra(lattice.cells.clone()).boundary()?.iter().map(|f| f.vertices().to_vec()).collect();
     // One guide for each label's triangles near enough, by the polycube's charts.
     let tri = labels(polycube)?;
     let (chart, curves) = charts(&tri);
@@ -160,10 +172,17 @@ fn hexes(name: &str, polycube: &Mesh, shape: &Mesh, step: f64, padding: bool) ->
     let mut touched: BTreeMap<u32, Vec<usize>> = BTreeMap::new();
     for f in &faces {
         let middle = f.iter().map(|v| lattice.points[*v as usize].coords).sum::<nalgebra::Vector3<f64>>() / 4.0;
-        let best = surface_ids.iter().map(|(c, g)| {
-            let far = |p: &Point| (guides[*g as usize].contact(p).point - p).norm_squared();
-            (f.iter().map(|v| far(&lattice.points[*v as usize])).sum::<f64>() * 10.0 + far(&Point::from(middle)), *c)
-        }).min_by(|a, b| a.0.total_cmp(&b.0)).map_or(0, |b| b.1);
+        let best = surface_ids
+            .iter()
+            .map(|(c, g)| {
+                let far = |p: &Point| (guides[*g as usize].contact(p).point - p).norm_squared();
+                (
+                    f.iter().map(|v| far(&lattice.points[*v as usize])).sum::<f64>() * 10.0 + far(&Point::from(middle)),
+                    *c,
+                )
+            })
+            .min_by(|a, b| a.0.total_cmp(&b.0))
+            .map_or(0, |b| b.1);
         f.iter().for_each(|v| touched.entry(*v).or_default().push(best));
     }
     let mut freedom = vec![Freedom::Free; lattice.points.len()];
@@ -181,7 +200,14 @@ fn hexes(name: &str, polycube: &Mesh, shape: &Mesh, step: f64, padding: bool) ->
     }
     let mesh = |points: &[Point]| Mesh { points: points.to_vec(), cells: Cells::Hexahedra(lattice.cells.clone()) };
     let before = statistics(&cell_qualities(&mesh(&lattice.points))?);
-    println!("{name}: {} hexes, {} guides, before min {:.3} avg {:.3} inverted {}", before.cells, guides.len(), before.min, before.average, before.inverted);
+    println!(
+        "{name}: {} hexes, {} guides, before min {:.3} avg {:.3} inverted {}",
+        before.cells,
+        guides.len(),
+        before.min,
+        before.average,
+        before.inverted
+    );
     let guides: Vec<&dyn Guide> = guides.iter().map(|g| &**g).collect();
     let mut points = lattice.points.clone();
     let start = Instant::now();
@@ -195,14 +221,24 @@ fn hexes(name: &str, polycube: &Mesh, shape: &Mesh, step: f64, padding: bool) ->
     settings.polish_rounds = number("POLISH", settings.polish_rounds as f64) as usize;
     let last = std::sync::Mutex::new((String::new(), Instant::now()));
     let context = Context::new(move |stage, _| {
-        if let Ok(mut last) = last.lock() && last.0 != stage {
+        if let Ok(mut last) = last.lock()
+            && last.0 != stage
+        {
             println!("  {} took {:.2} s", last.0, last.1.elapsed().as_secs_f64());
             *last = (stage.to_owned(), Instant::now());
         }
     });
     let report = optimise(&mut points, &elements, &freedom, &guides, &settings, &context)?;
     let after = statistics(&cell_qualities(&mesh(&points))?);
-    println!("  {:.2} s, {} iterations: min {:.3} avg {:.3} inverted {} {:?}", start.elapsed().as_secs_f64(), report.iterations, after.min, after.average, after.inverted, after.histogram);
+    println!(
+        "  {:.2} s, {} iterations: min {:.3} avg {:.3} inverted {} {:?}",
+        start.elapsed().as_secs_f64(),
+        report.iterations,
+        after.min,
+        after.average,
+        after.inverted,
+        after.histogram
+    );
     Ok(())
 }
 
@@ -213,7 +249,10 @@ fn pad(lattice: &mut Lattice, faces: &[Vec<u32>], freedom: &mut Vec<Freedom>) {
         let mut sums = vec![(nalgebra::Vector3::zeros(), 0.0); lattice.points.len()];
         for c in &lattice.cells {
             let middle = c.iter().map(|v| lattice.points[*v as usize].coords).sum::<nalgebra::Vector3<f64>>() / 8.0;
-            c.iter().for_each(|v| { sums[*v as usize].0 += middle; sums[*v as usize].1 += 1.0; });
+            c.iter().for_each(|v| {
+                sums[*v as usize].0 += middle;
+                sums[*v as usize].1 += 1.0;
+            });
         }
         sums.into_iter().map(|(s, n)| Point::from(s / n)).collect()
     };

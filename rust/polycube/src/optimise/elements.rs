@@ -31,11 +31,8 @@ pub struct Elements {
 const WORST_REST: f64 = 0.02;
 
 /// The twelve edges of a hexahedron in VTK's order, in three sets of four parallel ones.
-const PARALLEL: [[[usize; 2]; 4]; 3] = [
-    [[0, 1], [3, 2], [4, 5], [7, 6]],
-    [[0, 3], [1, 2], [4, 7], [5, 6]],
-    [[0, 4], [1, 5], [2, 6], [3, 7]],
-];
+const PARALLEL: [[[usize; 2]; 4]; 3] =
+    [[[0, 1], [3, 2], [4, 5], [7, 6]], [[0, 3], [1, 2], [4, 7], [5, 6]], [[0, 4], [1, 5], [2, 6], [3, 7]]];
 
 impl Elements {
     /// Tetrahedra that should look as in `rest`, each with its rest volume as weight (Garanzha et al. 2021).

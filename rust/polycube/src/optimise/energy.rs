@@ -12,7 +12,7 @@ pub(super) enum Law {
     /// `(1−θ) f + θ g` with `f = tr(Jᵀ J) / χ^(2/3)`, `g = (det² + 1) / χ` and `χ = (det + √(ε² + det²)) / 2`:
     /// finite for inverted elements.
     Regularised { theta: f64, epsilon: f64 },
-    /// The same with `χ = det`, infinite unless positive, and `strength · (floor / quality)^(2^squarings)` added, which
+    /// The same with `χ = det`, less its least value, infinite unless `det` is positive, and `strength · (floor / quality)^(2^squarings)` added, which
     /// weighs on the elements near the worst quality `floor`.
     Barrier { theta: f64, strength: f64, floor: f64, squarings: u32 },
 }
@@ -20,12 +20,7 @@ pub(super) enum Law {
 impl Law {
     /// The energy of an element with the present `edges` and the `inverse` of its reference, and its
     /// derivative by the edges. Infinite with a derivative of 0 outside the domain.
-    pub(super) fn value(
-        &self,
-        measure: Measure,
-        edges: &Matrix3<f64>,
-        inverse: &Matrix3<f64>,
-    ) -> (f64, Matrix3<f64>) {
+    pub(super) fn value(&self, measure: Measure, edges: &Matrix3<f64>, inverse: &Matrix3<f64>) -> (f64, Matrix3<f64>) {
         let j = edges * inverse;
         match *self {
             Self::Regularised { theta, epsilon } => {
@@ -37,6 +32,7 @@ impl Law {
                     return (f64::INFINITY, Matrix3::zeros());
                 }
                 let (energy, by_j) = distortion(&j, theta, 0.0);
+                let energy = energy - (3.0 - theta);
                 let (bad, slope) = match measure {
                     Measure::ScaledJacobian => skewness(edges),
                     Measure::MeanRatio => stretch(&j, inverse),
@@ -122,7 +118,7 @@ mod tests {
         let law = Law::Barrier { theta: 0.5, strength: 1.0, floor: 1.0, squarings: 2 };
         for measure in [Measure::ScaledJacobian, Measure::MeanRatio] {
             let (energy, slope) = law.value(measure, &Matrix3::identity(), &Matrix3::identity());
-            assert!((energy - 3.5).abs() < 1e-12 && slope.norm() < 1e-12);
+            assert!((energy - 1.0).abs() < 1e-12 && slope.norm() < 1e-12);
             assert_eq!(law.value(measure, &-Matrix3::identity(), &Matrix3::identity()).0, f64::INFINITY);
         }
     }

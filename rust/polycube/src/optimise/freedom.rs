@@ -68,9 +68,7 @@ impl<'a> Constraints<'a> {
     pub(super) fn allowed(&self, vertex: usize, step: Vector3<f64>) -> Vector3<f64> {
         match (self.freedom[vertex], self.tangents[vertex]) {
             (Freedom::Free, _) => step,
-            (Freedom::Axes(fixed), _) => {
-                Vector3::from([0, 1, 2].map(|a| if fixed[a] { 0.0 } else { step[a] }))
-            }
+            (Freedom::Axes(fixed), _) => Vector3::from([0, 1, 2].map(|a| if fixed[a] { 0.0 } else { step[a] })),
             (Freedom::Guided(_), Tangent::Plane(n)) => step - n * n.dot(&step),
             (Freedom::Guided(_), Tangent::Line(t)) => t * t.dot(&step),
             _ => Vector3::zeros(),

@@ -9,8 +9,8 @@ use crate::context::Context;
 use crate::error::Result;
 use crate::mesh::Point;
 
-/// An iteration that gains less ends the round.
-const TOLERANCE: f64 = 1e-5;
+/// A few iterations that gain less end the round.
+const TOLERANCE: f64 = 1e-2;
 /// No round may leave an element with less than this share of the worst quality before it.
 const BAR: f64 = 0.5;
 /// Largest exponent, as a power of two.

@@ -16,6 +16,8 @@ const TRIALS: usize = 40;
 const DESCENT: f64 = 1e-4;
 /// Share of the slope that may be left after a step.
 const CURVATURE: f64 = 0.9;
+/// Iterations over which slowness shows: the first ones after a start are short.
+const PATIENCE: usize = 5;
 /// Length of the first step at the vertex that moves farthest, in its own scale.
 const FIRST_STEP: f64 = 0.1;
 
@@ -24,7 +26,7 @@ const FIRST_STEP: f64 = 0.1;
 pub(super) struct Limits {
     /// Most iterations.
     pub(super) iterations: usize,
-    /// Stops when an iteration lowers the energy by less than this share.
+    /// Stops when [`PATIENCE`] iterations lower the energy by less than this share.
     pub(super) tolerance: f64,
 }
 
@@ -33,6 +35,13 @@ pub(super) struct Limits {
 pub(super) struct Outcome {
     /// The energy at the start and after every iteration; never rises.
     pub(super) energies: Vec<f64>,
+}
+
+impl Outcome {
+    fn is_slow(&self, tolerance: f64) -> bool {
+        let [first, .., last] = self.energies[self.energies.len().saturating_sub(PATIENCE + 1)..] else { return false };
+        self.energies.len() > PATIENCE && first - last < tolerance * first.abs()
+    }
 }
 
 struct Pair {
@@ -147,11 +156,10 @@ pub(super) fn minimise(
         let d = direction(&pairs, &state.gradient, scales);
         match search(&state, &d, evaluate)? {
             Some(next) => {
-                let slow = next.energy >= state.energy * (1.0 - limits.tolerance);
                 remember(&mut pairs, &state, &next);
                 outcome.energies.push(next.energy);
                 state = next;
-                if slow {
+                if outcome.is_slow(limits.tolerance) {
                     break;
                 }
             }

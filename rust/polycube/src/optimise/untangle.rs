@@ -10,8 +10,8 @@ use crate::mesh::Point;
 
 /// Where ε ends: as good as the true energy.
 const LEAST_EPSILON: f64 = 1e-10;
-/// An iteration that gains less ends the round.
-const TOLERANCE: f64 = 1e-4;
+/// A few iterations that gain less end the round.
+const TOLERANCE: f64 = 1e-3;
 /// Least share of the energy a round is taken to have gained (σ of the paper).
 const LEAST_GAIN: f64 = 0.1;
 
