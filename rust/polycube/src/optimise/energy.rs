@@ -24,14 +24,15 @@ impl Law {
         let j = edges * inverse;
         match *self {
             Self::Regularised { theta, epsilon } => {
-                let (energy, by_j) = distortion(&j, theta, epsilon);
+                let (energy, by_j) = distortion(&j, &cofactors(&j), theta, epsilon);
                 (energy, by_j * inverse.transpose())
             }
             Self::Barrier { theta, strength, floor, squarings } => {
-                if j.determinant() <= f64::MIN_POSITIVE {
+                let cofactors = cofactors(&j);
+                if j.column(0).dot(&cofactors.column(0)) <= f64::MIN_POSITIVE {
                     return (f64::INFINITY, Matrix3::zeros());
                 }
-                let (energy, by_j) = distortion(&j, theta, 0.0);
+                let (energy, by_j) = distortion(&j, &cofactors, theta, 0.0);
                 let energy = energy - (3.0 - theta);
                 let (bad, slope) = match measure {
                     Measure::ScaledJacobian => skewness(edges),
@@ -51,8 +52,7 @@ fn raise(x: f64, squarings: u32) -> (f64, f64) {
 }
 
 /// `(1−θ) f + θ g` and its derivative by `J`.
-fn distortion(j: &Matrix3<f64>, theta: f64, epsilon: f64) -> (f64, Matrix3<f64>) {
-    let cofactors = cofactors(j);
+fn distortion(j: &Matrix3<f64>, cofactors: &Matrix3<f64>, theta: f64, epsilon: f64) -> (f64, Matrix3<f64>) {
     let det = j.column(0).dot(&cofactors.column(0));
     let root = (epsilon * epsilon + det * det).sqrt();
     // Written so that nothing cancels on either side.
@@ -78,7 +78,7 @@ fn skewness(edges: &Matrix3<f64>) -> (f64, Matrix3<f64>) {
 
 /// One over the mean ratio, and its derivative by the edges.
 fn stretch(j: &Matrix3<f64>, inverse: &Matrix3<f64>) -> (f64, Matrix3<f64>) {
-    let (f, by_j) = distortion(j, 0.0, 0.0);
+    let (f, by_j) = distortion(j, &cofactors(j), 0.0, 0.0);
     (f / 3.0, by_j * inverse.transpose() / 3.0)
 }
 

@@ -64,6 +64,13 @@ impl<'a> Constraints<'a> {
         self.guide(vertex).map_or(point, |g| g.contact(&point).point)
     }
 
+    /// The same, and the vertex slides along the tangent there from now on.
+    pub(super) fn place(&mut self, vertex: usize, point: Point) -> Point {
+        let Some(contact) = self.guide(vertex).map(|g| g.contact(&point)) else { return point };
+        self.tangents[vertex] = contact.tangent;
+        contact.point
+    }
+
     /// The part of `step` that the vertex may take.
     pub(super) fn allowed(&self, vertex: usize, step: Vector3<f64>) -> Vector3<f64> {
         match (self.freedom[vertex], self.tangents[vertex]) {

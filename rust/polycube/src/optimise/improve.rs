@@ -63,7 +63,6 @@ fn step(
 ) -> Result<Census> {
     let before = points.clone();
     let floor = problem.assembly.census(points).worst;
-    problem.constraints.project(points);
     problem.descend(points, &Law::Barrier { theta, strength, floor, squarings }, limits, context)?;
     problem.settle(&before, points, BAR * floor, context)?;
     Ok(problem.assembly.census(points))

@@ -49,7 +49,7 @@ pub struct Settings {
     pub untangle_rounds: usize,
     /// Most iterations of a round of untangling; 100 by default.
     pub untangle_iterations: usize,
-    /// Rounds of improvement, with exponents growing from 2 to 64; 0 to leave the mesh untangled only; 12 by default.
+    /// Rounds of improvement, with exponents growing from 2 to 64; 0 to leave the mesh untangled only; 6 by default.
     pub improve_rounds: usize,
     /// Most iterations of a round of improvement; 20 by default.
     pub improve_iterations: usize,
@@ -65,7 +65,7 @@ impl Default for Settings {
             theta: 0.1,
             untangle_rounds: 60,
             untangle_iterations: 100,
-            improve_rounds: 12,
+            improve_rounds: 6,
             improve_iterations: 20,
             strength: 10.0,
             polish_rounds: 10,

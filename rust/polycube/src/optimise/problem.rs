@@ -76,10 +76,11 @@ impl<'a> Problem<'a> {
             for v in touched.into_iter().map(|v| v as usize) {
                 blend[v] = if retreat < HALVINGS { 0.5 * blend[v] } else { 0.0 };
                 let back = if blend[v] == 0.0 { from[v] } else { from[v] + (target[v] - from[v]) * blend[v] };
-                to[v] = self.constraints.placed(v, back);
+                to[v] = self.constraints.place(v, back);
             }
         }
         to.copy_from_slice(from);
+        self.constraints.project(to);
         Ok(())
     }
 

@@ -8,6 +8,8 @@ use crate::context::Context;
 use crate::error::Result;
 use crate::mesh::Point;
 
+/// Where ε starts: from a hundredth of the mean determinant up to all of it.
+const FIRST_EPSILON: [f64; 2] = [0.01, 1.0];
 /// Where ε ends: as good as the true energy.
 const LEAST_EPSILON: f64 = 1e-10;
 /// A few iterations that gain less end the round.
@@ -24,7 +26,9 @@ pub(super) fn untangle(
     context: &Context,
 ) -> Result<bool> {
     let limits = Limits { iterations: settings.untangle_iterations, tolerance: TOLERANCE };
-    let mut epsilon = 1.0;
+    // Few and slight inversions need not soften the energy of the whole mesh.
+    let least = problem.assembly.census(points).least;
+    let mut epsilon = (2.0 * least.abs()).clamp(FIRST_EPSILON[0], FIRST_EPSILON[1]);
     for round in 0..settings.untangle_rounds {
         context.tick(round as f64 / settings.untangle_rounds as f64)?;
         let law = Law::Regularised { theta: settings.theta, epsilon };
