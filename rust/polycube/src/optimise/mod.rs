@@ -162,7 +162,8 @@ fn check(points: &[Point], elements: &Elements, freedom: &[Freedom], settings: &
         let message = format!("{} freedoms for {} points", freedom.len(), points.len());
         return Err(Error::new(ErrorKind::Mismatch, message).remedy("give one freedom per point"));
     }
-    if !(0.0..1.0).contains(&settings.theta) || !(settings.strength >= 0.0 && settings.strength.is_finite()) {
+    let strength = 0.0..f64::INFINITY;
+    if !((0.0..1.0).contains(&settings.theta) && strength.contains(&settings.strength)) {
         let message = format!("theta {} or strength {} is out of range", settings.theta, settings.strength);
         return Err(Error::new(ErrorKind::Option, message).remedy("use 0 <= theta < 1 and strength >= 0"));
     }

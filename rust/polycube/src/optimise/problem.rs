@@ -60,9 +60,9 @@ impl<'a> Problem<'a> {
 
     /// Puts the sliding vertices of `to` on their guides. Where that gives an element no more than the quality `bar`, its
     /// vertices go back towards `from`, which is on the guides and above the bar, until all is well: `from` at worst.
-    pub(super) fn settle(&mut self, from: &[Point], to: &mut Vec<Point>, bar: f64, context: &Context) -> Result<()> {
+    pub(super) fn settle(&mut self, from: &[Point], to: &mut [Point], bar: f64, context: &Context) -> Result<()> {
         let mut blend = vec![1.0_f64; to.len()];
-        let target = to.clone();
+        let target = to.to_vec();
         self.constraints.project(to);
         for retreat in 0..RETREATS {
             context.tick(0.0)?;
