@@ -10,6 +10,7 @@ pub mod generate;
 pub mod layout;
 pub mod map;
 pub mod mesh;
+pub mod optimise;
 pub mod remesh;
 pub mod simplify;
 pub mod structure;

@@ -1,0 +1,204 @@
+//! The corner tetrahedra whose shapes are optimised, each with the shape it should have.
+
+use super::quality::{HEX_CORNERS, edges};
+use crate::error::{Error, ErrorKind, Place, Result};
+use crate::mesh::Point;
+use nalgebra::{Matrix3, Vector3};
+
+/// How the quality of an element is measured; always in −1..1, positive where it is not inverted.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Measure {
+    /// Scaled Jacobian of the three edges: 1 where they are perpendicular, whatever their lengths.
+    ScaledJacobian,
+    /// Mean ratio `3 det(J)^(2/3) / tr(Jᵀ J)` of the map from the reference, with the sign of `det J`: 1 for similarities.
+    MeanRatio,
+}
+
+/// Corner tetrahedra, each given by a vertex and the ends of three edges that leave it.
+///
+/// `J = [x1 − x0, x2 − x0, x3 − x0] R` maps the reference of an element, whose edges are `R⁻¹`, onto its present shape.
+/// About 128 bytes an element.
+#[derive(Clone, Debug)]
+pub struct Elements {
+    pub(super) corners: Vec<[u32; 4]>,
+    pub(super) inverse: Vec<Matrix3<f64>>,
+    pub(super) weights: Vec<f64>,
+    pub(super) per_cell: usize,
+    pub(super) measure: Measure,
+}
+
+/// A rest shape with a lower mean ratio than this is no example to follow.
+const WORST_REST: f64 = 0.02;
+
+/// The twelve edges of a hexahedron in VTK's order, in three sets of four parallel ones.
+const PARALLEL: [[[usize; 2]; 4]; 3] =
+    [[[0, 1], [3, 2], [4, 5], [7, 6]], [[0, 3], [1, 2], [4, 7], [5, 6]], [[0, 4], [1, 5], [2, 6], [3, 7]]];
+
+impl Elements {
+    /// Tetrahedra that should look as in `rest`, each with its rest volume as weight (Garanzha et al. 2021).
+    ///
+    /// For a polycube map the cells are those of both meshes, `rest` is the shape, and the optimised points
+    /// are those of the polycube. A rest tetrahedron that is inverted or all but flat is replaced by a regular one of the same
+    /// mean edge length, so bad input does not spoil the map.
+    ///
+    /// # Errors
+    /// [`ErrorKind::Mesh`] naming the cell that has a vertex outside `rest`.
+    pub fn tetrahedra_like(tets: &[[u32; 4]], rest: &[Point]) -> Result<Self> {
+        check(tets, rest.len())?;
+        let shapes: Vec<_> = tets.iter().map(|t| rest_shape(&edges(rest, *t))).collect();
+        let volumes = shapes.iter().map(Matrix3::determinant);
+        let mean = volumes.clone().sum::<f64>() / tets.len().max(1) as f64;
+        let weights = volumes.map(|v| v / mean).collect();
+        Ok(Self::new(tets.to_vec(), shapes, weights, 1, Measure::MeanRatio))
+    }
+
+    /// Tetrahedra that should be regular, all with one weight and one size.
+    pub fn regular_tetrahedra(tets: &[[u32; 4]]) -> Self {
+        let shapes = vec![regular(); tets.len()];
+        Self::new(tets.to_vec(), shapes, vec![1.0; tets.len()], 1, Measure::MeanRatio)
+    }
+
+    /// Hexahedra in VTK's order that should be cubes, all of one size: eight corner tetrahedra each.
+    ///
+    /// The optimiser then guarantees that the Jacobian is positive at all eight corners. That is what solvers and
+    /// [`scaled_jacobian`](super::scaled_jacobian) check; it does not prove it positive everywhere inside.
+    pub fn cubes(hexes: &[[u32; 8]]) -> Self {
+        let shapes = vec![Matrix3::identity(); 8 * hexes.len()];
+        Self::new(corners(hexes), shapes, vec![1.0; 8 * hexes.len()], 8, Measure::ScaledJacobian)
+    }
+
+    /// Hexahedra that should be boxes with about the edge lengths they have in `points`; as [`cubes`](Self::cubes) otherwise.
+    ///
+    /// The lengths are averaged over parallel edges, `smoothing` times over the neighbours as well (3 is a good number), so
+    /// layers that are thin on purpose stay thin, while single odd edges do not count.
+    /// O(n log n) for sorting the edges.
+    ///
+    /// # Errors
+    /// [`ErrorKind::Mesh`] naming the cell that has a vertex outside `points`.
+    pub fn boxes_like(hexes: &[[u32; 8]], points: &[Point], smoothing: usize) -> Result<Self> {
+        check(hexes, points.len())?;
+        let sizes = box_sizes(hexes, points, smoothing);
+        let shapes = sizes.iter().flat_map(corner_shapes).collect();
+        Ok(Self::new(corners(hexes), shapes, vec![1.0; 8 * hexes.len()], 8, Measure::ScaledJacobian))
+    }
+
+    fn new(
+        corners: Vec<[u32; 4]>,
+        shapes: Vec<Matrix3<f64>>,
+        weights: Vec<f64>,
+        per_cell: usize,
+        measure: Measure,
+    ) -> Self {
+        let invert = |shape: &Matrix3<f64>| shape.try_inverse().unwrap_or_else(Matrix3::identity);
+        let inverse = shapes.iter().map(invert).collect();
+        Self { corners, inverse, weights, per_cell, measure }
+    }
+
+    /// Number of corner tetrahedra.
+    pub fn len(&self) -> usize {
+        self.corners.len()
+    }
+
+    /// Whether there is none.
+    pub fn is_empty(&self) -> bool {
+        self.corners.is_empty()
+    }
+
+    /// How the quality of the elements is measured.
+    pub fn measure(&self) -> Measure {
+        self.measure
+    }
+
+    /// Cell that element `i` belongs to.
+    pub(super) fn cell(&self, i: usize) -> usize {
+        i / self.per_cell
+    }
+
+    /// Makes every reference larger by `factor`.
+    pub(super) fn enlarge(&mut self, factor: f64) {
+        self.inverse.iter_mut().for_each(|r| *r /= factor);
+    }
+
+    pub(super) fn quality(&self, i: usize, points: &[Point]) -> f64 {
+        let edges = edges(points, self.corners[i]);
+        match self.measure {
+            Measure::ScaledJacobian => super::quality::corner_jacobian(&edges),
+            Measure::MeanRatio => mean_ratio(&(edges * self.inverse[i])),
+        }
+    }
+}
+
+/// See [`Measure::MeanRatio`].
+pub(super) fn mean_ratio(j: &Matrix3<f64>) -> f64 {
+    let (det, sum) = (j.determinant(), j.norm_squared());
+    let root = libm::cbrt(det);
+    if sum > 0.0 { 3.0 * root * root.abs() / sum } else { 0.0 }
+}
+
+fn check<const N: usize>(cells: &[[u32; N]], points: usize) -> Result<()> {
+    match cells.iter().position(|c| c.iter().any(|v| *v as usize >= points)) {
+        None => Ok(()),
+        Some(i) => Err(Error::new(ErrorKind::Mesh, format!("a vertex is not among the {points} of the mesh"))
+            .at(Place::Cell(i as u32))),
+    }
+}
+
+/// Edges of the regular tetrahedron with edges of length 1.
+fn regular() -> Matrix3<f64> {
+    let (third, height) = (3.0_f64.sqrt() / 6.0, (2.0_f64 / 3.0).sqrt());
+    Matrix3::new(1.0, 0.5, 0.5, 0.0, 3.0 * third, third, 0.0, 0.0, height)
+}
+
+fn rest_shape(edges: &Matrix3<f64>) -> Matrix3<f64> {
+    let ideal = regular();
+    let good = ideal.try_inverse().is_some_and(|inverse| mean_ratio(&(edges * inverse)) > WORST_REST);
+    let length = (0..3).map(|i| edges.column(i).norm()).sum::<f64>() / 3.0;
+    if good { *edges } else { ideal * if length > 0.0 { length } else { 1.0 } }
+}
+
+fn corners(hexes: &[[u32; 8]]) -> Vec<[u32; 4]> {
+    hexes.iter().flat_map(|hex| HEX_CORNERS.map(|c| c.map(|i| hex[i]))).collect()
+}
+
+/// The reference edges of the eight corners of a box: each corner's three edges in its own order.
+fn corner_shapes(size: &[f64; 3]) -> [Matrix3<f64>; 8] {
+    HEX_CORNERS.map(|[from, to @ ..]| {
+        let along = |to: usize| {
+            let pair = |e: &[usize; 2]| *e == [from, to] || *e == [to, from];
+            PARALLEL.iter().position(|set| set.iter().any(pair)).unwrap_or(0)
+        };
+        Matrix3::from_diagonal(&Vector3::from(to.map(|to| size[along(to)])))
+    })
+}
+
+/// The three edge lengths each hexahedron should have.
+fn box_sizes(hexes: &[[u32; 8]], points: &[Point], smoothing: usize) -> Vec<[f64; 3]> {
+    let (ids, mut lengths) = number_edges(hexes, points);
+    let mean = |lengths: &[f64], set: &[u32]| set.iter().map(|e| lengths[*e as usize]).sum::<f64>() / 4.0;
+    let all = |lengths: &[f64]| -> Vec<f64> { ids.iter().map(|set| mean(lengths, set)).collect() };
+    for _ in 0..smoothing {
+        let (mut sums, mut counts) = (vec![0.0; lengths.len()], vec![0_u32; lengths.len()]);
+        for (set, mean) in ids.iter().zip(all(&lengths)) {
+            for e in set {
+                sums[*e as usize] += mean;
+                counts[*e as usize] += 1;
+            }
+        }
+        lengths = sums.iter().zip(&counts).map(|(s, n)| s / f64::from(*n)).collect();
+    }
+    let floor = 1e-3 * lengths.iter().sum::<f64>() / lengths.len().max(1) as f64;
+    let positive = |l: f64| if l > floor { l } else { floor.max(f64::MIN_POSITIVE.sqrt()) };
+    all(&lengths).chunks_exact(3).map(|l| [l[0], l[1], l[2]].map(positive)).collect()
+}
+
+/// The edges of each set of four parallel ones, three sets a hexahedron; and the length of each edge.
+fn number_edges(hexes: &[[u32; 8]], points: &[Point]) -> (Vec<[u32; 4]>, Vec<f64>) {
+    let key = |hex: &[u32; 8], [a, b]: [usize; 2]| (hex[a].min(hex[b]), hex[a].max(hex[b]));
+    let keys = hexes.iter().flat_map(|hex| PARALLEL.iter().map(move |set| set.map(|e| key(hex, e))));
+    let mut sorted: Vec<(u32, u32)> = keys.clone().flatten().collect();
+    sorted.sort_unstable();
+    sorted.dedup();
+    let id = |key: (u32, u32)| sorted.partition_point(|k| *k < key) as u32;
+    let lengths = sorted.iter().map(|&(a, b)| (points[a as usize] - points[b as usize]).norm()).collect();
+    (keys.map(|set| set.map(id)).collect(), lengths)
+}

@@ -1,0 +1,69 @@
+//! Raises the worst quality of a mesh without inverted elements.
+
+use super::Settings;
+use super::assembly::Census;
+use super::energy::Law;
+use super::lbfgs::Limits;
+use super::problem::Problem;
+use crate::context::Context;
+use crate::error::Result;
+use crate::mesh::Point;
+
+/// A few iterations that gain less end the round.
+const TOLERANCE: f64 = 1e-2;
+/// No round may leave an element with less than this share of the worst quality before it.
+const BAR: f64 = 0.5;
+/// Largest exponent, as a power of two.
+const SQUARINGS: u32 = 6;
+/// Weight of the average against the worst quality.
+const AVERAGE: f64 = 0.05;
+
+/// How good a state is.
+fn score(census: &Census) -> f64 {
+    census.worst + AVERAGE * census.average
+}
+
+/// Minimises the energy with a growing penalty on the elements near the worst, and keeps the best state seen. Its
+/// worst quality is never below that of the input, which must be on the guides with no element inverted.
+pub(super) fn improve(
+    problem: &mut Problem,
+    points: &mut Vec<Point>,
+    settings: &Settings,
+    context: &Context,
+) -> Result<()> {
+    let start = problem.assembly.census(points);
+    let (mut best, mut best_score) = (points.clone(), score(&start));
+    let limits = Limits { iterations: settings.improve_iterations, tolerance: TOLERANCE };
+    for round in 0..settings.improve_rounds {
+        context.tick(round as f64 / settings.improve_rounds as f64)?;
+        let census = step(problem, points, law(settings, round), limits, context)?;
+        if census.worst >= start.worst && score(&census) > best_score {
+            best_score = score(&census);
+            best.copy_from_slice(points);
+        }
+    }
+    *points = best;
+    Ok(())
+}
+
+/// The law of a round, for the worst quality 1: exponents double evenly over the rounds.
+fn law(settings: &Settings, round: usize) -> (f64, f64, u32) {
+    let span = settings.improve_rounds.saturating_sub(1).max(1);
+    let squarings = 1 + ((SQUARINGS - 1) as usize * round).div_ceil(span) as u32;
+    (settings.theta, settings.strength, squarings)
+}
+
+/// One round from `points`.
+fn step(
+    problem: &mut Problem,
+    points: &mut Vec<Point>,
+    (theta, strength, squarings): (f64, f64, u32),
+    limits: Limits,
+    context: &Context,
+) -> Result<Census> {
+    let before = points.clone();
+    let floor = problem.assembly.census(points).worst;
+    problem.descend(points, &Law::Barrier { theta, strength, floor, squarings }, limits, context)?;
+    problem.settle(&before, points, BAR * floor, context)?;
+    Ok(problem.assembly.census(points))
+}

@@ -1,0 +1,191 @@
+//! Removes inverted elements and raises the worst quality by moving vertices.
+//!
+//! [`Elements`] say what should look like what, [`Freedom`]s and [`Guide`]s how vertices may move, and [`optimise`] moves them in
+//! three phases:
+//!
+//! 1. **Untangle** (only where something is inverted): minimises the regularised energy of Garanzha et al., "Foldover-free
+//!    maps in 50 lines of code" (ACM TOG 2021), for falling ε, by L-BFGS.
+//! 2. **Improve**: minimises the same energy without regularisation, an infinite barrier against inversion, together with a
+//!    growing power of the badness of the elements near the worst one.
+//! 3. **Polish**: pattern search at the vertices of the worst elements.
+//!
+//! Sliding vertices move along the tangents of their guides and are put back on them after every round; where that spoils an element,
+//! its vertices go back. Everything is a function of the input alone, to the bit, for any number of threads.
+
+mod assembly;
+mod elements;
+mod energy;
+mod freedom;
+mod guide;
+mod improve;
+mod lbfgs;
+mod polish;
+mod problem;
+mod quality;
+#[cfg(test)]
+mod tests;
+mod untangle;
+
+pub use elements::{Elements, Measure};
+pub use freedom::Freedom;
+pub use guide::{Contact, CurveGuide, Guide, SurfaceGuide, Tangent};
+pub use quality::{
+    BARS, Statistics, cell_qualities, hexahedron_volume, scaled_jacobian, statistics, tetrahedron_scaled_jacobian,
+    tetrahedron_volume,
+};
+
+use crate::context::Context;
+use crate::error::{Error, ErrorKind, Place, Result};
+use crate::mesh::Point;
+use freedom::Constraints;
+use problem::Problem;
+
+/// How hard to try. The defaults suit 1,000 to 1,000,000 hexahedra.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Settings {
+    /// Weight of equal volumes against similar shapes, in `0..1` without 1; 0.1 by default.
+    pub theta: f64,
+    /// Most rounds of untangling, each with a smaller ε; 60 by default.
+    pub untangle_rounds: usize,
+    /// Most iterations of a round of untangling; 100 by default.
+    pub untangle_iterations: usize,
+    /// Rounds of improvement, with exponents growing from 2 to 64; 0 to leave the mesh untangled only; 6 by default.
+    pub improve_rounds: usize,
+    /// Most iterations of a round of improvement; 20 by default.
+    pub improve_iterations: usize,
+    /// Weight of the badness of the worst elements against all others' shapes, at least 0; 10 by default.
+    pub strength: f64,
+    /// Most rounds of polishing; 10 by default.
+    pub polish_rounds: usize,
+}
+
+impl Default for Settings {
+    fn default() -> Self {
+        Self {
+            theta: 0.1,
+            untangle_rounds: 60,
+            untangle_iterations: 100,
+            improve_rounds: 6,
+            improve_iterations: 20,
+            strength: 10.0,
+            polish_rounds: 10,
+        }
+    }
+}
+
+/// What an optimisation did. Qualities are in [`Measure`] of the elements: for hexahedra scaled Jacobians.
+#[derive(Clone, Debug, PartialEq, serde::Serialize)]
+pub struct Report {
+    /// Cells with an inverted or flat element in the input.
+    pub inverted_before: usize,
+    /// The same in the result.
+    pub inverted_after: usize,
+    /// Worst quality in the input, in −1..1.
+    pub worst_before: f64,
+    /// Worst quality in the result, in −1..1.
+    pub worst_after: f64,
+    /// Mean over the cells of the worst quality of each in the input, in −1..1.
+    pub average_before: f64,
+    /// The same in the result.
+    pub average_after: f64,
+    /// Iterations of the minimiser.
+    pub iterations: usize,
+    /// How far the vertex that moved most is from where it was, in the unit of the points.
+    pub largest_move: f64,
+}
+
+/// Moves `points` until no element is inverted and the worst is as good as can be had. `freedom` says for each point how it may move,
+/// `guides` what [`Freedom::Guided`] ones slide on.
+///
+/// Fixed coordinates keep their bits, and sliding points end on their guides. If the input, put on its guides, has no inverted
+/// element, neither has the result, and its worst quality is at least that of the input put on its guides. If it has, they are removed
+/// as far as the settings and the boundary allow; [`Report::inverted_after`] tells. References are scaled to the mean size
+/// of the elements.
+///
+/// Each iteration takes linear time on all threads of the current rayon pool; about 500 bytes an element.
+///
+/// # Errors
+/// [`ErrorKind::Mismatch`] when there is not one freedom per point; [`ErrorKind::Option`] for a setting out of range or a missing guide;
+/// [`ErrorKind::Mesh`] for coordinates that are not finite or vertices that do not exist; [`ErrorKind::Cancelled`]. The points are
+/// unchanged after an error.
+pub fn optimise(
+    points: &mut Vec<Point>,
+    elements: &Elements,
+    freedom: &[Freedom],
+    guides: &[&dyn Guide],
+    settings: &Settings,
+    context: &Context,
+) -> Result<Report> {
+    check(points, elements, freedom, settings)?;
+    let constraints = Constraints::new(freedom, guides)?;
+    let mut elements = elements.clone();
+    let size = mean_size(&elements, points);
+    elements.enlarge(size);
+    let mut problem = Problem::new(&elements, constraints, points.len());
+    let before = problem.assembly.census(points);
+    let mut moved = points.clone();
+    run(&mut problem, &mut moved, settings, context)?;
+    problem.constraints.restore(&mut moved, points);
+    let after = problem.assembly.census(&moved);
+    let report = Report {
+        inverted_before: before.inverted,
+        inverted_after: after.inverted,
+        worst_before: before.worst,
+        worst_after: after.worst,
+        average_before: before.average,
+        average_after: after.average,
+        iterations: problem.iterations,
+        largest_move: points.iter().zip(&moved).map(|(a, b)| (a - b).norm()).fold(0.0, f64::max),
+    };
+    *points = moved;
+    Ok(report)
+}
+
+/// All phases from `points`.
+fn run(problem: &mut Problem, points: &mut Vec<Point>, settings: &Settings, context: &Context) -> Result<()> {
+    context.tick(0.0)?;
+    problem.constraints.project(points);
+    let mut valid = problem.assembly.census(points).inverted == 0;
+    if !valid {
+        valid = untangle::untangle(problem, points, settings, &context.stage("untangle", 0.0, 0.4))?;
+    }
+    if valid {
+        improve::improve(problem, points, settings, &context.stage("improve", 0.4, 0.9))?;
+        let context = context.stage("polish", 0.9, 1.0);
+        polish::polish(problem.elements, &problem.constraints, points, settings.polish_rounds, &context)?;
+    }
+    context.stage("polish", 0.9, 1.0).tick(1.0)
+}
+
+fn check(points: &[Point], elements: &Elements, freedom: &[Freedom], settings: &Settings) -> Result<()> {
+    if freedom.len() != points.len() {
+        let message = format!("{} freedoms for {} points", freedom.len(), points.len());
+        return Err(Error::new(ErrorKind::Mismatch, message).remedy("give one freedom per point"));
+    }
+    let strength = 0.0..f64::INFINITY;
+    if !((0.0..1.0).contains(&settings.theta) && strength.contains(&settings.strength)) {
+        let message = format!("theta {} or strength {} is out of range", settings.theta, settings.strength);
+        return Err(Error::new(ErrorKind::Option, message).remedy("use 0 <= theta < 1 and strength >= 0"));
+    }
+    if let Some(v) = points.iter().position(|p| p.coords.iter().any(|x| !x.is_finite())) {
+        return Err(Error::new(ErrorKind::Mesh, "a coordinate is not finite").at(Place::Vertex(v as u32)));
+    }
+    match elements.corners.iter().position(|c| c.iter().any(|v| *v as usize >= points.len())) {
+        None => Ok(()),
+        Some(i) => Err(Error::new(ErrorKind::Mesh, format!("a vertex is not among the {} points", points.len()))
+            .at(Place::Cell(elements.cell(i) as u32))),
+    }
+}
+
+/// The factor by which the references must grow to have the mean volume of the elements, which a fixed boundary keeps.
+fn mean_size(elements: &Elements, points: &[Point]) -> f64 {
+    let det = |i: usize| (quality::edges(points, elements.corners[i]) * elements.inverse[i]).determinant();
+    let sum = |each: &dyn Fn(f64) -> f64| -> f64 {
+        (0..elements.len()).map(|i| elements.weights[i] * each(det(i))).sum::<f64>()
+    };
+    let weight: f64 = elements.weights.iter().sum();
+    let (mean, absolute) = (sum(&|d| d) / weight, sum(&f64::abs) / weight);
+    // Corners of tangled hexahedra may cancel each other out.
+    let mean = if mean > 0.05 * absolute { mean } else { absolute };
+    if mean > 0.0 && mean.is_finite() { libm::cbrt(mean) } else { 1.0 }
+}
