@@ -1,8 +1,8 @@
 //! The optimiser on meshes with known answers.
 
 use super::*;
-use crate::generate::{CellKind, Cuboid, Example, SplitMix64, Voxels, example};
-use crate::mesh::{Cells, Mesh};
+use crate::generate::{Cuboid, Example, SplitMix64, Voxels, example};
+use crate::mesh::{CellKind, Cells, Mesh};
 use nalgebra::Vector3;
 
 fn block(kind: CellKind, size: i64) -> Mesh {
