@@ -22,10 +22,13 @@ pub(super) fn coarsest(
     options: &Options,
     context: &Context,
 ) -> Result<Alignment> {
-    let paper = simplify(structure, input, targets, before, options, &context.stage("align", 0.0, 0.2))?;
+    let aligning = context.stage("align", 0.0, 0.2);
     if !best::is_searchable(structure) {
-        return Ok(paper);
+        return simplify(structure, input, targets, before, options, &aligning);
     }
+    // On its own lattice Algorithm 1 gives the search the same start at every scale.
+    let own = Unit::of(structure, input).apply(structure, input);
+    let paper = simplify(structure, input, &own, before, options, &aligning)?;
     let start: Placement = paper.levels.iter().map(|&x| x as f64).collect();
     let searching = context.stage("search", 0.2, 1.0);
     let found = best::search(structure, input, &start, options.objective, &options.effort, &searching)?;
@@ -81,7 +84,8 @@ fn relaxed(
 ) -> Result<Placement> {
     let fine = Unit::of(structure, input).apply(structure, input);
     let start = place_in_order(structure, found, &fine, solver, context)?;
-    let near = Outcome::of(structure, start.clone()).settle(structure, &fine, solver, context)?;
-    let counted = |placement: &[f64]| count(&Arrangement::new(structure, placement)).of(objective);
-    Ok(if counted(&near) <= counted(&start) { near } else { start })
+    let outcome = Outcome::of(structure, &start);
+    let near = outcome.settle(&fine, solver, context)?;
+    let no_worse = count(&near).of(objective) <= count(&outcome.arrangement).of(objective);
+    Ok(if no_worse { near.placement().to_vec() } else { start })
 }

@@ -6,8 +6,8 @@ use super::unit::Unit;
 use super::{Alignment, Options, Round, SolverKind, to_integers};
 use crate::context::Context;
 use crate::error::Result;
-use crate::layout::{Counts, count};
-use crate::structure::{Arrangement, Placement, Structure};
+use crate::layout::{Counts, Objective, count};
+use crate::structure::{Arrangement, Structure};
 
 /// Algorithm 1 from λ = 1 again and again until it finds nothing more, so that a second call changes nothing.
 pub(super) fn simplify(
@@ -26,7 +26,8 @@ pub(super) fn simplify(
     let mut rounds = Vec::new();
     let mut from = input.to_vec();
     loop {
-        let (found, counts, steps) = improve(structure, &from, input, &settings, context)?;
+        let (found, steps) = improve(structure, &from, input, options.objective, &settings, context)?;
+        let counts = count(&found);
         let improved = counts.of(options.objective) < after.of(options.objective);
         if rounds.is_empty() || improved {
             rounds.extend(steps);
@@ -34,7 +35,7 @@ pub(super) fn simplify(
         if !improved {
             break;
         }
-        best = place_in_order(structure, &found, targets, &*solver, context)?;
+        best = place_in_order(structure, found.placement(), targets, &*solver, context)?;
         from.clone_from(&best);
         after = counts;
     }
@@ -42,26 +43,23 @@ pub(super) fn simplify(
     Ok(Alignment { levels, before, after: Some(after), rounds, broken: Vec::new(), front: Vec::new() })
 }
 
-/// One run of Algorithm 1 on `from`, settled near `from` or, if that is as coarse, near `input`.
-fn improve(
-    structure: &Structure,
+/// One run of Algorithm 1 on `from`, settled near `input` or, if only that is as coarse, near `from`.
+fn improve<'a>(
+    structure: &'a Structure,
     from: &[f64],
     input: &[f64],
+    objective: Objective,
     settings: &Settings,
     context: &Context,
-) -> Result<(Placement, Counts, Vec<Round>)> {
-    let unit = Unit::of(structure, from);
-    let own = unit.apply(structure, from);
+) -> Result<(Arrangement<'a>, Vec<Round>)> {
+    let own = Unit::of(structure, from).apply(structure, from);
     let outcome = paper::run(structure, &own, settings, context)?;
-    let near = outcome.settle(structure, &own, settings.solver, context)?;
-    let counts = count(&Arrangement::new(structure, &near));
+    let near = outcome.settle(&own, settings.solver, context)?;
+    if from == input {
+        return Ok((near, outcome.rounds));
+    }
     let original = Unit::of(structure, input).apply(structure, input);
-    let faithful = outcome.settle(structure, &original, settings.solver, context)?;
-    let faithful_counts = count(&Arrangement::new(structure, &faithful));
-    let (placement, counts) = if faithful_counts.blocks_padded <= counts.blocks_padded {
-        (faithful, faithful_counts)
-    } else {
-        (near, counts)
-    };
-    Ok((placement, counts, outcome.rounds))
+    let faithful = outcome.settle(&original, settings.solver, context)?;
+    let coarser = count(&faithful).of(objective) <= count(&near).of(objective);
+    Ok((if coarser { faithful } else { near }, outcome.rounds))
 }
