@@ -65,7 +65,7 @@ pub struct Args {
     #[arg(long, value_name = "L", value_parser = fraction, default_value_t = 0.0)]
     pub lambda_min: f64,
 
-    /// Which number shall be small [default: blocks-padded for a volume, surface-patches for a surface without a shape]
+    /// Which number `best` makes small [default: blocks_padded for a volume, surface_patches for a surface]
     #[arg(long, value_enum)]
     pub objective: Option<ObjectiveArg>,
 
@@ -155,9 +155,9 @@ impl clap::ValueEnum for ObjectiveArg {
 
     fn to_possible_value(&self) -> Option<PossibleValue> {
         let (name, help) = match self.0 {
-            Objective::BlocksPadded => ("blocks-padded", "Blocks of the volume with one padding layer around it"),
+            Objective::BlocksPadded => ("blocks_padded", "Blocks of the volume with one padding layer around it"),
             Objective::Blocks => ("blocks", "Blocks of the volume"),
-            Objective::SurfacePatches => ("surface-patches", "Patches of the surface"),
+            Objective::SurfacePatches => ("surface_patches", "Patches of the surface"),
         };
         Some(PossibleValue::new(name).help(help))
     }

@@ -231,8 +231,8 @@ fn first_of(violations: Vec<Violation>) -> Error {
     error
 }
 
-fn default_objective(_mesh: &Mesh) -> Objective {
-    Objective::BlocksPadded
+fn default_objective(mesh: &Mesh) -> Objective {
+    if mesh.cells.is_volume() { Objective::BlocksPadded } else { Objective::SurfacePatches }
 }
 
 /// 1 for a polycube that lies on the lattice already, else one step per mean mesh edge.

@@ -37,6 +37,10 @@ pub(super) fn coarsest(
     let order = relaxed(structure, input, &chosen, options.objective, &*solver, context)?;
     let levels = place_in_order(structure, &order, targets, &*solver, context)?;
     let after = count(&Arrangement::new(structure, &levels));
+    if after.blocks_padded > before.blocks_padded {
+        // Fewer patches can mean more blocks; the promise is never more of them than there were.
+        return simplify(structure, input, targets, before, options, context);
+    }
     let front = found.front.states().map(|s| trade_off(structure, s)).collect();
     Ok(Alignment { levels: to_integers(&levels), after: Some(after), front, ..paper })
 }

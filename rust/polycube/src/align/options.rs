@@ -39,7 +39,7 @@ pub struct Options {
     pub lambda_min: f64,
     /// Who solves the integer problems.
     pub solver: SolverKind,
-    /// Which number shall be small.
+    /// Which number [`Strategy::Best`] makes small; Algorithm 1 always minds `blocks_padded`.
     pub objective: Objective,
     /// How long [`Strategy::Best`] searches.
     pub effort: Effort,

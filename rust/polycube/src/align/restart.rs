@@ -6,7 +6,7 @@ use super::unit::Unit;
 use super::{Alignment, Options, Round, SolverKind, to_integers};
 use crate::context::Context;
 use crate::error::Result;
-use crate::layout::{Counts, Objective, count};
+use crate::layout::{Counts, count};
 use crate::structure::{Arrangement, Structure};
 
 /// Algorithm 1 from λ = 1 again and again until it finds nothing more, so that a second call changes nothing.
@@ -26,9 +26,9 @@ pub(super) fn simplify(
     let mut rounds = Vec::new();
     let mut from = input.to_vec();
     loop {
-        let (found, steps) = improve(structure, &from, input, options.objective, &settings, context)?;
+        let (found, steps) = improve(structure, &from, input, &settings, context)?;
         let counts = count(&found);
-        let improved = counts.of(options.objective) < after.of(options.objective);
+        let improved = counts.blocks_padded < after.blocks_padded;
         if rounds.is_empty() || improved {
             rounds.extend(steps);
         }
@@ -48,7 +48,6 @@ fn improve<'a>(
     structure: &'a Structure,
     from: &[f64],
     input: &[f64],
-    objective: Objective,
     settings: &Settings,
     context: &Context,
 ) -> Result<(Arrangement<'a>, Vec<Round>)> {
@@ -60,6 +59,6 @@ fn improve<'a>(
     }
     let original = Unit::of(structure, input).apply(structure, input);
     let faithful = outcome.settle(&original, settings.solver, context)?;
-    let coarser = count(&faithful).of(objective) <= count(&near).of(objective);
+    let coarser = count(&faithful).blocks_padded <= count(&near).blocks_padded;
     Ok((if coarser { faithful } else { near }, outcome.rounds))
 }
