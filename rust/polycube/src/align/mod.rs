@@ -10,6 +10,7 @@ mod order;
 mod pairs;
 mod paper;
 pub mod problem;
+pub mod prove;
 pub mod ranks;
 mod relax;
 #[allow(missing_docs)]

@@ -13,6 +13,7 @@ mod violation;
 
 pub use arrangement::{Arrangement, Conflict, LevelBox};
 pub use label::{Label, area_vector};
+pub(crate) use rectangles::rectangles;
 pub use polycube::{Deviation, Polycube, Tolerance};
 pub use surface::{HalfEdge, Surface};
 pub use violation::Violation;
