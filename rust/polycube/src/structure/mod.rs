@@ -13,8 +13,8 @@ mod violation;
 
 pub use arrangement::{Arrangement, Conflict, LevelBox};
 pub use label::{Label, area_vector};
-pub(crate) use rectangles::rectangles;
 pub use polycube::{Deviation, Polycube, Tolerance};
+pub(crate) use rectangles::rectangles;
 pub use surface::{HalfEdge, Surface};
 pub use violation::Violation;
 

@@ -100,10 +100,8 @@ pub(super) fn trace(known: Known, outline: &Outline, line: &Line, classes: &Clas
     let across = |b: &&Border| b.along != line.along;
     let ahead = |b: &&Border| known.get(b.at, line.from) & beyond != 0;
     let reached = |b: &&Border| !known.below(b.ends[1], line.at) && !known.below(line.at, b.ends[0]);
-    let candidates: Vec<(Option<usize>, &Border)> = (outline.borders.iter().filter(across).filter(ahead))
-        .filter(reached)
-        .map(|b| (classes.of(b.at), b))
-        .collect();
+    let candidates: Vec<(Option<usize>, &Border)> =
+        (outline.borders.iter().filter(across).filter(ahead)).filter(reached).map(|b| (classes.of(b.at), b)).collect();
     let mut next = classes.of(line.from);
     while let Some(class) = next {
         let mut here = candidates.iter().filter(|(c, _)| *c == Some(class)).map(|(_, b)| b);
