@@ -81,6 +81,10 @@ pub struct Args {
     #[arg(long, value_name = "D", value_parser = positive)]
     pub max_displacement: Option<f64>,
 
+    /// How long `best` tries to prove that its result cannot be beaten: partial orders looked at
+    #[arg(long, value_name = "N", default_value_t = Effort::default().proof_nodes)]
+    pub proof_nodes: u64,
+
     /// Stop the search after this many seconds with the best found; the result may then differ from run to run
     #[arg(long, value_name = "SECONDS", value_parser = positive)]
     pub time_limit: Option<f64>,
@@ -173,6 +177,7 @@ impl Args {
             objective: self.objective.map(|o| o.0),
             effort: Effort {
                 steps_per_level: self.steps,
+                proof_nodes: self.proof_nodes,
                 time_limit: self.time_limit.map(std::time::Duration::from_secs_f64),
             },
             simplicity: Some(self.simplicity),

@@ -7,7 +7,7 @@ use super::paper::Outcome;
 use super::restart::simplify;
 use super::solve::Solver;
 use super::unit::Unit;
-use super::{Alignment, Options, TradeOff, to_integers};
+use super::{Alignment, LowerBound, Options, TradeOff, to_integers};
 use crate::context::Context;
 use crate::error::Result;
 use crate::layout::{Counts, Objective, count};
@@ -42,7 +42,8 @@ pub(super) fn coarsest(
         return simplify(structure, input, targets, before, options, context);
     }
     let front = found.front.states().map(|s| trade_off(structure, s)).collect();
-    Ok(Alignment { levels: to_integers(&levels), after: Some(after), front, ..paper })
+    let bound = Some(LowerBound { count: found.proof.bound, proven: found.proof.proven, nodes: found.proof.nodes });
+    Ok(Alignment { levels: to_integers(&levels), after: Some(after), front, bound, ..paper })
 }
 
 fn trade_off(structure: &Structure, state: &State) -> TradeOff {

@@ -17,7 +17,8 @@ mod order;
 mod pairs;
 mod paper;
 pub mod problem;
-mod ranks;
+pub mod prove;
+pub mod ranks;
 mod relax;
 
 mod restart;
@@ -50,6 +51,19 @@ pub struct Alignment {
     pub broken: Vec<Conflict>,
     /// The trade-off between few blocks and little displacement, from the fewest blocks on; only from [`Strategy::Best`].
     pub front: Vec<TradeOff>,
+    /// How far the objective can go down at most; only from [`Strategy::Best`].
+    pub bound: Option<LowerBound>,
+}
+
+/// What is proven of the least count.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, serde::Serialize)]
+pub struct LowerBound {
+    /// No valid polycube of this structure counts less.
+    pub count: usize,
+    /// Whether the search reached it, so that its result is the optimum.
+    pub proven: bool,
+    /// Partial orders looked at.
+    pub nodes: u64,
 }
 
 /// One way to trade blocks for displacement.
@@ -127,7 +141,15 @@ fn naive(structure: &Structure, targets: &[f64], before: Counts) -> Alignment {
     let arrangement = Arrangement::new(structure, &placement);
     let broken = arrangement.conflicts();
     let after = broken.is_empty().then(|| count(&arrangement));
-    Alignment { levels: to_integers(&placement), before, after, rounds: Vec::new(), broken, front: Vec::new() }
+    Alignment {
+        levels: to_integers(&placement),
+        before,
+        after,
+        rounds: Vec::new(),
+        broken,
+        front: Vec::new(),
+        bound: None,
+    }
 }
 
 fn to_integers(placement: &[f64]) -> Vec<i64> {

@@ -40,7 +40,7 @@ pub(super) fn simplify(
         after = counts;
     }
     let levels = to_integers(&best);
-    Ok(Alignment { levels, before, after: Some(after), rounds, broken: Vec::new(), front: Vec::new() })
+    Ok(Alignment { levels, before, after: Some(after), rounds, broken: Vec::new(), front: Vec::new(), bound: None })
 }
 
 /// One run of Algorithm 1 on `from`, settled near `input` or, if only that is as coarse, near `from`.

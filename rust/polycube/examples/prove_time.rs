@@ -1,0 +1,38 @@
+//! How far the proof of the fewest blocks gets on a polycube: `prove_time FILE [NODES [SECONDS]]`.
+
+use polycube::align::prove::{Objective, prove};
+use polycube::align::ranks::Ranks;
+use polycube::align::{Options, align};
+use polycube::structure::{Polycube, Tolerance};
+use std::time::{Duration, Instant};
+
+fn main() {
+    let mut arguments = std::env::args().skip(1);
+    let file = arguments.next().expect("a mesh file");
+    let nodes = arguments.next().map_or(1_000_000, |n| n.parse().expect("a number of nodes"));
+    let seconds = arguments.next().map_or(60, |n| n.parse().expect("a number of seconds"));
+    let mesh = polycube::mesh::read(std::path::Path::new(&file)).expect("a readable mesh");
+    let polycube = Polycube::new(&mesh, None, &Tolerance::default()).expect("a polycube");
+    let s = &polycube.structure;
+    let context = polycube::Context::default();
+    let aligned = align(s, &polycube.placement, &Options::default(), &context).expect("an alignment");
+    let levels: Vec<f64> = aligned.levels.iter().map(|&x| x as f64).collect();
+    let start = Ranks::new(s, &levels);
+    let of_axis = [0, 1, 2].map(|a| s.levels.iter().filter(|l| l.axis == a).count());
+    for objective in [Objective::BlocksPadded, Objective::Blocks, Objective::SurfacePatches] {
+        let root = prove(s, objective, &start, 0, None, &context).expect("a bound");
+        let clock = Instant::now();
+        let time = Some(Duration::from_secs(seconds));
+        let proof = prove(s, objective, &start, nodes, time, &context).expect("a proof");
+        println!(
+            "{file} {of_axis:?} {objective:?}: start {} best {} bound {} root {} {} nodes {} time {:.2?}",
+            root.count,
+            proof.count,
+            proof.bound,
+            root.bound,
+            if proof.proven { "PROVEN" } else { "open" },
+            proof.nodes,
+            clock.elapsed()
+        );
+    }
+}
