@@ -1,4 +1,5 @@
-//! What every valid order must satisfy: edges have a length, and parts of the surface that are no neighbours lie apart.
+//! What every valid order must satisfy: edges have a length, and parts of the surface that are no neighbours lie
+//! apart.
 //!
 //! Two boxes lie apart when some axis separates them, so each pair of boxes gives one clause: a disjunction
 //! of at most three conditions on pairs of levels. When all conditions of a clause but one are
@@ -219,7 +220,8 @@ impl Closing<'_> {
     }
 }
 
-/// Every hole of a facet lies within its outer loop: some level of that loop lies below each of the hole's, some above.
+/// Every hole of a facet lies within its outer loop: some level of that loop lies below each of the hole's, some
+/// above.
 fn enclosures(outline: &Outline, pairs: &Pairs, relations: &Relations) -> Vec<Clause> {
     let Some((outer, holes)) = outline.loops.split_first() else { return Vec::new() };
     let levels = holes.iter().flatten().zip([0, 1].into_iter().cycle());
@@ -241,7 +243,8 @@ fn condition(a: u32, b: u32, mask: u8) -> Condition {
     if a < b { (a, b, mask) } else { (b, a, flipped(mask)) }
 }
 
-/// The clause that two boxes have no point in common: one condition per pair of bounds on an axis that can separate them.
+/// The clause that two boxes have no point in common: one condition per pair of bounds on an axis that can separate
+/// them.
 fn apart(first: &LevelBox, second: &LevelBox) -> Clause {
     let mut clause: Clause = Vec::with_capacity(6);
     let mut add = |low: u32, high: u32| {

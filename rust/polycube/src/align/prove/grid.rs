@@ -24,7 +24,8 @@ impl Known<'_> {
     }
 }
 
-/// Levels of one axis cut into classes, each surely above the one before; gap `i` lies between classes `i` and `i + 1`.
+/// Levels of one axis cut into classes, each surely above the one before; gap `i` lies between classes `i` and `i +
+/// 1`.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Classes {
     levels: Vec<u32>,
@@ -115,7 +116,8 @@ pub(super) fn trace(known: Known, outline: &Outline, line: &Line, classes: &Clas
     Trace { gaps, crosses: None }
 }
 
-/// The gaps of a facet on both axes: which of their products lie in the facet, and between which of them a line surely runs.
+/// The gaps of a facet on both axes: which of their products lie in the facet, and between which of them a line
+/// surely runs.
 pub(super) struct Grid {
     /// The classes on both axes.
     pub classes: [Classes; 2],
@@ -172,7 +174,8 @@ impl Grid {
         self.is_inside(at) && parted(0) && parted(1)
     }
 
-    /// The side that bounds the facet in class `class` of `axis` along the gap `gap` of the other axis, if that class is flat.
+    /// The side that bounds the facet in class `class` of `axis` along the gap `gap` of the other axis, if that
+    /// class is flat.
     pub fn border<'o>(&self, outline: &'o Outline, axis: usize, class: usize, gap: usize) -> Option<&'o Border> {
         let lies_there = |b: &&Border| {
             let range = b.ends.map(|e| self.classes[1 - axis].of(e));
