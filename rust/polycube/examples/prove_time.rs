@@ -1,10 +1,11 @@
 //! How far the proof of the fewest blocks gets on a polycube: `prove_time FILE [NODES [SECONDS [all]]]`. Instead of a
 //! file, `random:SEED:BOXES:EXTENT` is a generated polycube; `all` proves all three objectives.
 
-use polycube::align::prove::{Objective, prove};
+use polycube::align::prove::prove;
 use polycube::align::ranks::Ranks;
 use polycube::align::{Options, align};
 use polycube::generate::{CellKind, random_polycube};
+use polycube::layout::Objective;
 use polycube::mesh::Mesh;
 use polycube::structure::{Polycube, Tolerance};
 use std::time::{Duration, Instant};
