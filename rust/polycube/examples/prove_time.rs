@@ -4,8 +4,9 @@
 use polycube::align::prove::prove;
 use polycube::align::ranks::Ranks;
 use polycube::align::{Options, align};
-use polycube::generate::{CellKind, random_polycube};
+use polycube::generate::random_polycube;
 use polycube::layout::Objective;
+use polycube::mesh::CellKind;
 use polycube::mesh::Mesh;
 use polycube::structure::{Polycube, Tolerance};
 use std::time::{Duration, Instant};

@@ -3,32 +3,22 @@
 //! [`align`] is the way in. Algorithm 1 pairs corners ([`neighbours`]), turns the pairs and the distances to keep
 //! into an integer [`problem`], [`solve`]s it, checks the result exactly, and repeats.
 
-mod anneal;
-mod best;
 mod classes;
-mod coarsest;
-mod constraints;
-mod front;
-mod greedy;
-mod moves;
-pub mod neighbours;
 mod options;
 mod order;
-mod pairs;
 mod paper;
 pub mod problem;
 pub mod prove;
 pub mod ranks;
 mod relax;
-
-mod restart;
+mod search;
 mod separate;
 pub mod solve;
 mod unit;
 
-pub use best::Effort;
 pub use options::{Options, SolverKind, Strategy};
-pub use paper::Round;
+pub use paper::{Round, neighbours};
+pub use search::Effort;
 
 use crate::context::Context;
 use crate::error::{Error, ErrorKind, Result};
@@ -96,8 +86,8 @@ pub fn align(structure: &Structure, input: &[f64], options: &Options, context: &
     let before = count(&arrangement);
     match options.strategy {
         Strategy::Naive => Ok(naive(structure, &targets, before)),
-        Strategy::Paper => restart::simplify(structure, input, &targets, before, options, context),
-        Strategy::Best => coarsest::coarsest(structure, input, &targets, before, options, context),
+        Strategy::Paper => paper::simplify(structure, input, &targets, before, options, context),
+        Strategy::Best => search::coarsest(structure, input, &targets, before, options, context),
     }
 }
 

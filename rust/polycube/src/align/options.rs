@@ -1,6 +1,6 @@
 //! What the alignment shall do.
 
-use super::best::Effort;
+use super::search::Effort;
 use super::solve::{ExactSolver, LinearSolver, Solver};
 use crate::layout::Objective;
 
@@ -28,7 +28,7 @@ pub enum SolverKind {
     Linear,
 }
 
-/// What [`align`] shall do.
+/// What [`align`](super::align()) shall do.
 #[derive(Clone, Copy, Debug, PartialEq, serde::Serialize)]
 pub struct Options {
     /// How the levels find their places.

@@ -1,7 +1,7 @@
 //! One solve of the integer problem whose result is a valid polycube.
 
 use super::classes::Classes;
-use super::pairs::Pair;
+use super::paper::Pair;
 use super::problem::{Difference, Linear, PairTerm, Problem, ShapeTerm};
 use super::separate::{holds, separations};
 use super::solve::Solver;

@@ -1,8 +1,14 @@
 //! Algorithm 1 of the paper: pair corners, align them, halve λ, until nothing more can be aligned.
 
+mod constraints;
+pub mod neighbours;
+mod pairs;
+mod restart;
+
+pub use pairs::Pair;
+pub use restart::simplify;
+
 use super::classes::Classes;
-use super::constraints::structural;
-use super::pairs::{Pair, candidates};
 use super::problem::{Difference, Linear, Problem};
 use super::relax::{Demand, relax};
 use super::solve::Solver;
@@ -10,6 +16,8 @@ use crate::context::Context;
 use crate::error::Result;
 use crate::layout::{Counts, count};
 use crate::structure::{Arrangement, Structure};
+use constraints::structural;
+use pairs::candidates;
 
 /// One round of Algorithm 1.
 #[derive(Clone, Copy, Debug, PartialEq, serde::Serialize)]

@@ -1,8 +1,8 @@
 //! Which corners to align next (paper, section 4).
 
-use super::classes::Classes;
 use super::neighbours::neighbours;
-use super::problem::Difference;
+use crate::align::classes::Classes;
+use crate::align::problem::Difference;
 use crate::context::Context;
 use crate::error::Result;
 use crate::structure::{Arrangement, Structure};

@@ -1,6 +1,6 @@
 //! The distances that keep a structure a polycube (paper, section 5.1), as differences of levels.
 
-use super::problem::Difference;
+use crate::align::problem::Difference;
 use crate::structure::{Arrangement, Edge};
 use rayon::prelude::*;
 

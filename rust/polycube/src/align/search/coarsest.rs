@@ -1,20 +1,19 @@
 //! The strategy `best`, from the input to the chosen trade-off.
 
 use super::anneal::State;
-use super::best::{self, Found};
-use super::order::place_in_order;
-use super::paper::Outcome;
-use super::restart::simplify;
-use super::solve::Solver;
-use super::unit::Unit;
-use super::{Alignment, LowerBound, Options, TradeOff, to_integers};
+use super::{Found, is_searchable, search};
+use crate::align::order::place_in_order;
+use crate::align::paper::{Outcome, simplify};
+use crate::align::solve::Solver;
+use crate::align::unit::Unit;
+use crate::align::{Alignment, LowerBound, Options, TradeOff, to_integers};
 use crate::context::Context;
 use crate::error::Result;
 use crate::layout::{Counts, Objective, count};
 use crate::structure::{Arrangement, Placement, Structure};
 
 /// Algorithm 1, then the search.
-pub(super) fn coarsest(
+pub fn coarsest(
     structure: &Structure,
     input: &[f64],
     targets: &[f64],
@@ -23,7 +22,7 @@ pub(super) fn coarsest(
     context: &Context,
 ) -> Result<Alignment> {
     let aligning = context.stage("align", 0.0, 0.2);
-    if !best::is_searchable(structure) {
+    if !is_searchable(structure) {
         return simplify(structure, input, targets, before, options, &aligning);
     }
     // On its own lattice Algorithm 1 gives the search the same start at every scale.
@@ -31,7 +30,7 @@ pub(super) fn coarsest(
     let paper = simplify(structure, input, &own, before, options, &aligning)?;
     let start: Placement = paper.levels.iter().map(|&x| x as f64).collect();
     let searching = context.stage("search", 0.2, 1.0);
-    let found = best::search(structure, input, &start, options.objective, &options.effort, &searching)?;
+    let found = search(structure, input, &start, options.objective, &options.effort, &searching)?;
     let solver = options.solver.solver();
     let chosen = choose(structure, &found, targets, options, &*solver, context)?;
     let order = relaxed(structure, input, &chosen, options.objective, &*solver, context)?;

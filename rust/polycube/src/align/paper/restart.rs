@@ -1,16 +1,17 @@
 //! Algorithm 1 until a fresh start finds nothing more.
 
-use super::order::place_in_order;
-use super::paper::{self, Settings};
-use super::unit::Unit;
-use super::{Alignment, Options, Round, SolverKind, to_integers};
+use super::Round;
+use super::{Settings, run};
+use crate::align::order::place_in_order;
+use crate::align::unit::Unit;
+use crate::align::{Alignment, Options, SolverKind, to_integers};
 use crate::context::Context;
 use crate::error::Result;
 use crate::layout::{Counts, count};
 use crate::structure::{Arrangement, Structure};
 
 /// Algorithm 1 from λ = 1 again and again until it finds nothing more, so that a second call changes nothing.
-pub(super) fn simplify(
+pub fn simplify(
     structure: &Structure,
     input: &[f64],
     targets: &[f64],
@@ -52,7 +53,7 @@ fn improve<'a>(
     context: &Context,
 ) -> Result<(Arrangement<'a>, Vec<Round>)> {
     let own = Unit::of(structure, from).apply(structure, from);
-    let outcome = paper::run(structure, &own, settings, context)?;
+    let outcome = run(structure, &own, settings, context)?;
     let near = outcome.settle(&own, settings.solver, context)?;
     if from == input {
         return Ok((near, outcome.rounds));

@@ -1,15 +1,22 @@
 //! The strategy `best`: Algorithm 1 and greedy merging, then annealing from both; the coarsest valid result wins.
 
-use super::anneal::{Chain, Landscape, Schedule, State};
-use super::front::Front;
-use super::greedy;
-use super::moves::Moves;
+mod anneal;
+mod coarsest;
+mod front;
+mod greedy;
+mod moves;
+
+pub use coarsest::coarsest;
+
 use super::prove::{Proof, prove};
 use super::ranks::Ranks;
 use crate::context::Context;
 use crate::error::Result;
 use crate::layout::{Objective, Rows};
 use crate::structure::{Placement, Structure};
+use anneal::{Chain, Landscape, Schedule, State};
+use front::Front;
+use moves::Moves;
 use num_traits::PrimInt;
 use std::time::{Duration, Instant};
 
