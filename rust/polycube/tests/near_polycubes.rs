@@ -124,6 +124,14 @@ fn a_mesh_without_faces_is_empty() {
 }
 
 #[test]
+fn a_face_of_three_cells_is_refused_at_the_third() {
+    let points = [[0, 0, 0], [1, 0, 0], [0, 1, 0], [0, 0, 1], [0, 0, -1], [1, 1, 1]];
+    let points = points.iter().map(|p| Point::from(p.map(f64::from))).collect();
+    let cells = Cells::Tetrahedra(vec![[0, 1, 2, 3], [0, 2, 1, 4], [0, 1, 2, 5]]);
+    assert_eq!(violations_of(&Mesh { points, cells }, None), [Violation::CrowdedCell { cell: 2 }]);
+}
+
+#[test]
 fn coordinates_must_be_finite() {
     for bad in [f64::NAN, f64::INFINITY] {
         let mut mesh = cube(2);

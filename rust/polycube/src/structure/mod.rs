@@ -5,6 +5,7 @@
 
 mod arrangement;
 mod boxes;
+mod charts;
 mod extract;
 mod label;
 mod polycube;

@@ -1,6 +1,7 @@
 //! A mesh read as a polycube: its structure, and what of the structure each face and vertex belongs to.
 
-use super::extract::{Charts, Skeleton};
+use super::charts::Charts;
+use super::extract::Skeleton;
 use super::label::{Label, area_vector};
 use super::{Arrangement, Conflict, Placement, Structure, Surface, Violation};
 use crate::mesh::{Face, Mesh, Point};
@@ -60,7 +61,7 @@ impl Polycube {
         check_points(&mesh.points)?;
         let faces = mesh.cells.boundary().map_err(|e| match e.place {
             Some(crate::Place::Edge(a, b)) => vec![Violation::NonManifoldEdge { edge: [a, b] }],
-            Some(crate::Place::Cell(cell)) => vec![Violation::InvertedCell { cell }],
+            Some(crate::Place::Cell(cell)) => vec![Violation::CrowdedCell { cell }],
             _ => vec![Violation::Empty],
         })?;
         let surface = Surface::new(faces, mesh.points.len())?;

@@ -111,6 +111,11 @@ pub enum Violation {
         /// A face of the component.
         face: u32,
     },
+    /// A cell with a face that two other cells have, too.
+    CrowdedCell {
+        /// The cell.
+        cell: u32,
+    },
     /// An element of the mesh is inverted or flat inside the polycube.
     InvertedCell {
         /// The cell.
@@ -140,7 +145,7 @@ impl Violation {
             | Self::OppositeCharts { edge }
             | Self::NonMonotoneEdge { edge }
             | Self::ZeroLengthEdge { ends: edge } => Place::Edge(edge[0], edge[1]),
-            Self::InvertedCell { cell } => Place::Cell(cell),
+            Self::CrowdedCell { cell } | Self::InvertedCell { cell } => Place::Cell(cell),
         })
     }
 
@@ -165,6 +170,7 @@ impl Violation {
             Self::OffLevel { .. } => "off_level",
             Self::SelfOverlap { .. } => "self_overlap",
             Self::InsideOut { .. } => "inside_out",
+            Self::CrowdedCell { .. } => "crowded_cell",
             Self::InvertedCell { .. } => "inverted_cell",
         }
     }
@@ -194,6 +200,7 @@ impl Violation {
             }
             Self::SelfOverlap { other, .. } => format!("the surface touches or crosses itself: face {other} meets it"),
             Self::InsideOut { .. } => "this part of the surface looks inward".into(),
+            Self::CrowdedCell { .. } => "a face of the cell belongs to more than two cells".into(),
             Self::InvertedCell { .. } => "the cell is inverted or flat".into(),
         }
     }
@@ -219,6 +226,7 @@ impl Violation {
             Self::OffLevel { .. } => "flatten the facet, or raise the level tolerance",
             Self::SelfOverlap { .. } => "move the two parts apart",
             Self::InsideOut { .. } => "flip its faces",
+            Self::CrowdedCell { .. } => "remove duplicate or overlapping cells",
             Self::InvertedCell { .. } => "untangle the polycube map; it is not injective here",
         }
     }
@@ -240,7 +248,8 @@ impl From<Violation> for Error {
             | V::OpenEdge { .. }
             | V::NonManifoldEdge { .. }
             | V::InconsistentOrientation { .. }
-            | V::NonManifoldVertex { .. } => ErrorKind::Mesh,
+            | V::NonManifoldVertex { .. }
+            | V::CrowdedCell { .. } => ErrorKind::Mesh,
             _ => ErrorKind::Polycube,
         };
         let error = Self::new(kind, violation.message()).remedy(violation.remedy());

@@ -106,7 +106,8 @@ pub struct Proof {
 /// use polycube::align::prove::prove;
 /// use polycube::layout::Objective;
 /// use polycube::align::ranks::Ranks;
-/// use polycube::generate::{CellKind, Cuboid, Voxels};
+/// use polycube::generate::{Cuboid, Voxels};
+/// use polycube::mesh::CellKind;
 /// use polycube::structure::{Polycube, Tolerance};
 ///
 /// // An L: two boxes, whose reflex edge cuts it into three blocks with 14 faces.
