@@ -6,13 +6,14 @@ use super::pairs::{Pair, candidates};
 use super::problem::{Linear, Problem};
 use super::relax::{Demand, relax};
 use super::solve::Solver;
+use super::to_integers;
 use crate::context::Context;
 use crate::error::Result;
 use crate::layout::{Counts, count};
 use crate::structure::{Arrangement, Placement, Structure};
 
 /// One round of Algorithm 1.
-#[derive(Clone, Copy, Debug, PartialEq, serde::Serialize)]
+#[derive(Clone, Debug, PartialEq, serde::Serialize)]
 pub struct Round {
     /// The weight of the attraction to the input.
     pub lambda: f64,
@@ -22,6 +23,10 @@ pub struct Round {
     pub alignments: usize,
     /// Counts after the round.
     pub counts: Counts,
+    /// Where the levels lie after the round, on the lattice of the rounds; [`rescale`](super::rescale) brings them to
+    /// the scale of a result. Not written to reports.
+    #[serde(skip)]
+    pub levels: Vec<i64>,
 }
 
 /// Where Algorithm 1 ended.
@@ -124,7 +129,8 @@ impl State<'_> {
         let alignments = self.keep(&pairs);
         let counts = count(&Arrangement::new(self.structure, &self.outcome.placement));
         let lambda = 0.5_f64.powi(halvings as i32);
-        self.outcome.rounds.push(Round { lambda, pairs: pairs.len(), alignments, counts });
+        let levels = to_integers(&self.outcome.placement);
+        self.outcome.rounds.push(Round { lambda, pairs: pairs.len(), alignments, counts, levels });
         Ok(alignments > 0 || lambda * self.pull() >= 1.0)
     }
 
