@@ -1,7 +1,7 @@
 // What the page of `polycube view` uses of three.js.
 export {
     AmbientLight, BackSide, BufferAttribute, BufferGeometry, Color, DirectionalLight, DoubleSide, Group, Mesh,
-    MeshBasicMaterial, MeshLambertMaterial, OrthographicCamera, Plane, Scene, Vector3, WebGLRenderer,
+    MeshBasicMaterial, MeshLambertMaterial, OrthographicCamera, Plane, SRGBColorSpace, Scene, Vector3, WebGLRenderer,
 } from "three";
 export { OrbitControls } from "three/addons/controls/OrbitControls.js";
 export { LineSegments2 } from "three/addons/lines/LineSegments2.js";

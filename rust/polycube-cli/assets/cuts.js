@@ -15,7 +15,18 @@ function tilesByFacet(tiles, planes, facetCount) {
         const at = (k) => planes[k % 3][tiles.corners[6 * i + k]];
         byFacet[facet].push({ id: tiles.ids[i], low: [at(0), at(1), at(2)], high: [at(3), at(4), at(5)] });
     });
+    byFacet.forEach(openOuterSides);
     return byFacet;
+}
+
+/** Gives tiles their range: `from` and `to` are `low` and `high`, but without end at the outermost sides of the facet. */
+function openOuterSides(tiles) {
+    const low = [0, 1, 2].map((a) => tiles.reduce((m, t) => Math.min(m, t.low[a]), Infinity));
+    const high = [0, 1, 2].map((a) => tiles.reduce((m, t) => Math.max(m, t.high[a]), -Infinity));
+    for (const tile of tiles) {
+        tile.from = tile.low.map((x, a) => (x === low[a] ? -Infinity : x));
+        tile.to = tile.high.map((x, a) => (x === high[a] ? Infinity : x));
+    }
 }
 
 /** The part of a polygon on one side of `value` along `axis`; corners are [x, y, z, weights of the triangle's corners]. */
@@ -35,13 +46,17 @@ function clip(polygon, axis, value, sign) {
     return kept;
 }
 
-/** The part of a triangle within a tile. */
-function within(polygon, tile, axes) {
+/** The part of a polygon within a tile, and the parts around it. */
+function split(polygon, tile, axes) {
+    const outside = [];
     for (const axis of axes) {
-        if (polygon.some((p) => p[axis] < tile.low[axis])) polygon = clip(polygon, axis, tile.low[axis], 1);
-        if (polygon.some((p) => p[axis] > tile.high[axis])) polygon = clip(polygon, axis, tile.high[axis], -1);
+        for (const [value, sign] of [[tile.from[axis], 1], [tile.to[axis], -1]]) {
+            if (!polygon.some((p) => sign * p[axis] < sign * value)) continue;
+            outside.push(clip(polygon, axis, value, -sign));
+            polygon = clip(polygon, axis, value, sign);
+        }
     }
-    return polygon;
+    return [polygon, outside.filter((part) => part.length > 2)];
 }
 
 function area(polygon, [u, v]) {
@@ -53,14 +68,28 @@ function area(polygon, [u, v]) {
     return Math.abs(sum) / 2;
 }
 
-/** How far the middle of a polygon is from a tile. */
-function distance(polygon, tile, axes) {
-    let sum = 0;
-    for (const axis of axes) {
-        const middle = polygon.reduce((s, p) => s + p[axis], 0) / polygon.length;
-        sum += Math.max(tile.low[axis] - middle, middle - tile.high[axis], 0);
+/** The tile nearest to a place. */
+function nearest(place, tiles, axes) {
+    const gap = (tile) => axes.reduce((sum, a) => sum + Math.max(tile.low[a] - place[a], place[a] - tile.high[a], 0), 0);
+    let best = tiles[0], least = Infinity;
+    for (const tile of tiles) {
+        const own = gap(tile);
+        if (own < least) [best, least] = [tile, own];
     }
-    return sum;
+    return best;
+}
+
+/** Gives a polygon outside all tiles to the nearest: halved until all its corners agree or it is small enough. */
+function lend(polygon, tiles, axes, depth, give) {
+    const owners = polygon.map((p) => nearest(p, tiles, axes));
+    if (depth === 0 || owners.every((tile) => tile === owners[0])) return give(polygon, owners[0]);
+    const range = axes.map((a) => [Math.min(...polygon.map((p) => p[a])), Math.max(...polygon.map((p) => p[a]))]);
+    const wider = range[1][1] - range[1][0] > range[0][1] - range[0][0] ? 1 : 0;
+    const middle = (range[wider][0] + range[wider][1]) / 2;
+    for (const sign of [1, -1]) {
+        const half = clip(polygon, axes[wider], middle, sign);
+        if (half.length > 2) lend(half, tiles, axes, depth - 1, give);
+    }
 }
 
 /** Receives the pieces of a surface: three corners a triangle, two a line; each as triangle and weights. */
@@ -98,27 +127,24 @@ function cutSurface(data, points, tiles) {
             const v = 3 * data.triangles[3 * t + k];
             return [points[v], points[v + 1], points[v + 2], +(k === 0), +(k === 1), +(k === 2)];
         });
-        let left = area(polygon, axes);
-        const least = 1e-5 * left;
+        const least = 1e-6 * area(polygon, axes);
+        let left = [polygon];
         for (const tile of tiles[facet]) {
-            if (left <= least) break;
-            const beside = (a) => polygon.every((p) => p[a] <= tile.low[a]) || polygon.every((p) => p[a] >= tile.high[a]);
+            const beside = (a) => polygon.every((p) => p[a] <= tile.from[a]) || polygon.every((p) => p[a] >= tile.to[a]);
+            if (!left.length) break;
             if (axes.some(beside)) continue;
-            const part = within(polygon, tile, axes);
-            const covered = area(part, axes);
-            if (part.length < 3 || covered === 0) continue;
-            pieces.add(part, t, facet, tile.id);
-            pieces.addLines(part, t, tile, axes);
-            left -= covered;
+            left = left.flatMap((part) => {
+                const [inside, outside] = split(part, tile, axes);
+                if (inside.length < 3) return [part];
+                pieces.add(inside, t, facet, tile.id);
+                pieces.addLines(inside, t, tile, axes);
+                return outside.filter((p) => area(p, axes) > least);
+            });
         }
-        // Where the mesh folds over the border of its facet, or is flat, the nearest tile lends its colour.
-        if (left > least || least === 0) {
-            const nearest = tiles[facet].reduce((best, tile) => {
-                const d = distance(polygon, tile, axes);
-                return d < best[0] ? [d, tile] : best;
-            }, [Infinity, null])[1];
-            if (nearest) pieces.add(polygon, t, facet, nearest.id);
-        }
+        // Where the mesh folds over a border of its facet the nearest tile lends its colour.
+        if (!tiles[facet].length) continue;
+        const give = (part, tile) => pieces.add(part, t, facet, tile.id);
+        for (const part of left) lend(part, tiles[facet], axes, 6, give);
     }
     return pieces;
 }

@@ -39,8 +39,8 @@ function cutsOf(layout, kind) {
 }
 
 function pastel(id) {
-    const lightness = [0.80, 0.70, 0.76][id % 3];
-    return new T.Color().setHSL((id * 0.618034 + 0.08) % 1, 0.62, lightness);
+    const lightness = [0.84, 0.74, 0.79][id % 3];
+    return new T.Color().setHSL((id * 0.618034 + 0.08) % 1, 0.62, lightness, T.SRGBColorSpace);
 }
 
 function qualityColour(q) {
@@ -51,13 +51,19 @@ function qualityColour(q) {
 
 // ---- Objects
 
+/** The box around points, its middle, and how far the farthest point is from there. */
 function bounds(points) {
     const low = [Infinity, Infinity, Infinity], high = [-Infinity, -Infinity, -Infinity];
     points.forEach((x, i) => {
         low[i % 3] = Math.min(low[i % 3], x);
         high[i % 3] = Math.max(high[i % 3], x);
     });
-    return { low, high };
+    const middle = low.map((x, a) => (x + high[a]) / 2);
+    let radius = 1e-30;
+    for (let i = 0; i < points.length; i += 3) {
+        radius = Math.max(radius, Math.hypot(...middle.map((x, a) => points[i + a] - x)));
+    }
+    return { low, high, middle, radius };
 }
 
 function geometry(positions, normals, colours) {
@@ -78,7 +84,7 @@ function spread(colours, each) {
     return out;
 }
 
-const behindLines = { polygonOffset: true, polygonOffsetFactor: 1, polygonOffsetUnits: 1 };
+const behindLines = { polygonOffset: true, polygonOffsetFactor: 2, polygonOffsetUnits: 8 };
 
 function solid(positions, normals, colours, planes) {
     const g = geometry(positions, normals, colours);
@@ -91,10 +97,14 @@ function solid(positions, normals, colours, planes) {
     return group;
 }
 
-function lines(positions, colour, width, planes) {
+/** Lines; those with a `rise` lie before the others. */
+function lines(positions, colour, width, planes, rise = 0) {
     const g = new T.LineSegmentsGeometry();
     g.setPositions(positions);
-    const material = new T.LineMaterial({ color: colour, linewidth: width, clippingPlanes: planes });
+    const material = new T.LineMaterial({
+        color: colour, linewidth: width, clippingPlanes: planes,
+        polygonOffset: rise > 0, polygonOffsetFactor: -rise, polygonOffsetUnits: -8 * rise,
+    });
     return new T.LineSegments2(g, material);
 }
 
@@ -133,7 +143,7 @@ function singularEdges(points, planes) {
             if (data.convex[i] !== convex) return;
             for (let k = 1; k < chain.length; k++) positions.push(...at(chain[k - 1]), ...at(chain[k]));
         });
-        return lines(positions, colour, 4, planes);
+        return lines(positions, colour, 3, planes, 1);
     });
 }
 
@@ -184,7 +194,10 @@ try {
     $("trouble").hidden = false;
 }
 const camera = new T.OrthographicCamera(-1, 1, 1, -1, -20, 20);
-camera.position.set(5.0, 4.2, 7.6);
+// The axis that points up; the other two follow it round.
+const turned = (x, y, z) => new T.Vector3().fromArray([0, 1, 2].map((a) => [x, y, z][(a + 4 - data.up) % 3]));
+camera.up.copy(turned(0, 1, 0));
+camera.position.copy(turned(5.0, 4.2, 7.6));
 const controls = new T.OrbitControls(camera, canvas);
 controls.addEventListener("change", render);
 controls.saveState();
@@ -210,9 +223,8 @@ function wanted() {
 function pane({ object, step, name }) {
     const layout = step === null ? null : data.layouts[data.steps[step].layout];
     const points = object === "hexes" ? data.hexes.points : object === "shape" ? data.shape : layout.points;
-    const { low, high } = bounds(points);
-    const middle = low.map((x, a) => (x + high[a]) / 2);
-    const scale = 1 / Math.max(Math.hypot(...high.map((x, a) => x - low[a])) / 2, 1e-30);
+    const { low, high, middle, radius } = bounds(points);
+    const scale = 1 / radius;
     const axis = ["x", "y", "z"].indexOf(chosen("axis"));
     let slice = null, planes = [];
     if (axis >= 0) {
@@ -291,14 +303,14 @@ function draw() {
     panes.forEach((p, i) => {
         // Before and after stand side by side, polycube above shape.
         const [x, y] = ends ? [Math.floor(i / 2), i % 2] : [i % c, Math.floor(i / c)];
-        const half = 1.02 / Math.min(1, w / h);
+        const half = 1.04 / Math.min(1, w / h);
         Object.assign(camera, { left: -half * w / h, right: half * w / h, top: half, bottom: -half });
         camera.updateProjectionMatrix();
-        p.light.position.copy(camera.position).add(new T.Vector3(-2, 3, 0));
+        p.light.position.copy(camera.position).add(turned(-2, 3, 0));
         renderer.setViewport(x * w, height - (y + 1) * h, w, h);
         renderer.setScissor(x * w, height - (y + 1) * h, w, h);
         renderer.render(p.scene, camera);
-        Object.assign($("captions").children[i].style, { left: `${x * w}px`, top: `${y * h}px` });
+        Object.assign($("captions").children[i].style, { left: `${100 * x * w / width}%`, top: `${100 * y * h / height}%` });
     });
 }
 
@@ -334,7 +346,7 @@ function sentence(step, last) {
     if (step === 0) return "The polycube as it came.";
     if (step === last) return "The result, on the integer lattice.";
     const times = (n, word) => `${number(n)} ${word}${n === 1 ? "" : "s"}`;
-    return `Step ${step} of ${last}: λ = 1/${Math.round(1 / lambda)}, ${times(pairs, "pair")} of corners, ${times(alignments, "level")} aligned.`;
+    return `Step ${step} of ${last}: λ = ${lambda === 1 ? "1" : `1/${Math.round(1 / lambda)}`}, ${times(pairs, "pair")} of corners, ${times(alignments, "level")} aligned.`;
 }
 
 function tellQuality() {

@@ -9,7 +9,7 @@ pub const INK: Colour = [0.10, 0.10, 0.13];
 /// A light colour for the number `id`; numbers that follow each other get colours far apart. The page has the same.
 pub fn pastel(id: u32) -> Colour {
     let hue = (f64::from(id) * 0.618_034 + 0.08).fract() as f32;
-    let lightness = [0.80, 0.70, 0.76][id as usize % 3];
+    let lightness = [0.84, 0.74, 0.79][id as usize % 3];
     from_hsl(hue, 0.62, lightness)
 }
 

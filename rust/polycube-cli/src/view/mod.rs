@@ -53,6 +53,10 @@ pub struct Args {
     #[arg(long, value_name = "PIXELS", value_parser = clap::value_parser!(u32).range(16..=4096), default_value_t = 640)]
     png_size: u32,
 
+    /// The axis that points up
+    #[arg(long, value_enum, default_value_t = Axis::Y)]
+    up: Axis,
+
     /// How the levels find their places
     #[arg(long, value_enum, default_value_t)]
     strategy: StrategyArg,
@@ -64,6 +68,14 @@ pub struct Args {
     /// Print nothing but errors
     #[arg(short, long)]
     quiet: bool,
+}
+
+/// An axis.
+#[derive(Clone, Copy, Debug, clap::ValueEnum)]
+enum Axis {
+    X,
+    Y,
+    Z,
 }
 
 /// Simplifies and writes the page.
@@ -90,7 +102,7 @@ fn work(args: &Args, context: &Context) -> Result<()> {
         ..polycube::Options::default()
     };
     let about = Failure::in_file(&args.mesh.polycube);
-    let scene = Scene::new(&meshes, &options, &context.stage("view", 0.1, 0.9)).map_err(about)?;
+    let scene = Scene::new(&meshes, &options, args.up as usize, &context.stage("view", 0.1, 0.9)).map_err(about)?;
     let writing = context.stage("write", 0.9, 1.0);
     let picture = args.png.as_ref().map(|_| picture::png(&scene, args.png_size, &writing)).transpose()?;
     let page = page::html(&title(&args.mesh.polycube), &scene, hexes.as_ref())?;

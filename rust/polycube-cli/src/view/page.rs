@@ -22,6 +22,7 @@ const LICENCE: &str = include_str!("../../assets/three.LICENSE");
 #[derive(Serialize)]
 struct Data<'a> {
     title: &'a str,
+    up: usize,
     /// u32, three per triangle.
     triangles: String,
     /// u32, one per triangle.
@@ -85,6 +86,7 @@ struct HexData {
 pub fn html(title: &str, scene: &Scene, hexes: Option<&Hexes>) -> Result<String> {
     let data = Data {
         title,
+        up: scene.up,
         triangles: bytes(scene.triangles.as_flattened().iter().map(|v| v.to_le_bytes())),
         facets: bytes(scene.facet.iter().map(|f| f.to_le_bytes())),
         labels: &scene.labels,

@@ -39,14 +39,17 @@ pub fn png(scene: &Scene, size: u32, context: &Context) -> Result<Vec<u8>> {
 fn pane(scene: &Scene, layout: &Layout, on: Option<&[Point]>, size: usize) -> Pane {
     let fine = size * FINER;
     let points = on.unwrap_or(&layout.points);
-    let screen = project(points, fine as f64);
+    let screen = project(points, scene.up, fine as f64);
     let normals = if on.is_some() { Some(normals(&scene.triangles, points)) } else { None };
     let mut raster = Raster::new(fine);
     for (triangle, &facet) in scene.triangles.iter().zip(&scene.facet) {
         let corner = |v: u32| Corner {
             screen: screen[v as usize],
             place: from_fn(|a| layout.points[v as usize][a] as f32),
-            light: light(normals.as_ref().map_or_else(|| axis(scene.labels[facet as usize]), |n| n[v as usize])),
+            light: light(
+                normals.as_ref().map_or_else(|| axis(scene.labels[facet as usize]), |n| n[v as usize]),
+                scene.up,
+            ),
         };
         raster.triangle(facet, &triangle.map(corner));
     }
@@ -57,10 +60,10 @@ fn pane(scene: &Scene, layout: &Layout, on: Option<&[Point]>, size: usize) -> Pa
 }
 
 /// Pixels to the right, pixels down, and the distance towards the eye, of all points in a square of `size` pixels.
-fn project(points: &[Point], size: f64) -> Vec<[f32; 3]> {
-    let [right, up] = [[VIEW[2], 0.0, -VIEW[0]], [-VIEW[0] * VIEW[1], VIEW[0] * VIEW[0] + VIEW[2] * VIEW[2], -VIEW[1] * VIEW[2]]]
-        .map(unit);
-    let seen = |p: &Point| [right, up, unit(VIEW)].map(|axis| (0..3).map(|a| axis[a] * p[a]).sum::<f64>());
+fn project(points: &[Point], up: usize, size: f64) -> Vec<[f32; 3]> {
+    let [x, y, z] = VIEW;
+    let axes = [[z, 0.0, -x], [-x * y, x * x + z * z, -y * z], VIEW].map(|axis| turned(unit(axis), up));
+    let seen = |p: &Point| axes.map(|axis| (0..3).map(|a| axis[a] * p[a]).sum::<f64>());
     let seen: Vec<[f64; 3]> = points.iter().map(seen).collect();
     let end = |a: usize, pick: fn(f64, f64) -> f64| seen.iter().map(|p| p[a]).reduce(pick).unwrap_or(0.0);
     let (low, high): ([f64; 2], [f64; 2]) = (from_fn(|a| end(a, f64::min)), from_fn(|a| end(a, f64::max)));
@@ -73,6 +76,11 @@ fn project(points: &[Point], size: f64) -> Vec<[f32; 3]> {
     seen.iter().map(place).collect()
 }
 
+/// The same vector where the axis `up` points up, which is Y in `v`.
+fn turned(v: [f64; 3], up: usize) -> [f64; 3] {
+    from_fn(|a| v[(a + 4 - up) % 3])
+}
+
 fn unit(v: [f64; 3]) -> [f64; 3] {
     let length = v.iter().map(|x| x * x).sum::<f64>().sqrt();
     v.map(|x| x / length)
@@ -80,12 +88,20 @@ fn unit(v: [f64; 3]) -> [f64; 3] {
 
 /// The direction of a label.
 fn axis(label: usize) -> [f64; 3] {
-    from_fn(|a| if a != label / 2 { 0.0 } else if label.is_multiple_of(2) { 1.0 } else { -1.0 })
+    from_fn(|a| {
+        if a != label / 2 {
+            0.0
+        } else if label.is_multiple_of(2) {
+            1.0
+        } else {
+            -1.0
+        }
+    })
 }
 
 /// Brightest towards the upper left of the eye, darkest away from it.
-fn light(normal: [f64; 3]) -> f32 {
-    let towards = unit([0.25, 0.85, 0.55]);
+fn light(normal: [f64; 3], up: usize) -> f32 {
+    let towards = turned(unit([0.25, 0.85, 0.55]), up);
     let cosine: f64 = unit(normal).iter().zip(towards).map(|(n, t)| n * t).sum();
     if cosine.is_finite() { (0.80 + 0.24 * cosine).min(1.0) as f32 } else { 0.8 }
 }

@@ -37,6 +37,8 @@ pub struct Chain {
 
 /// The surface and all its layouts.
 pub struct Scene {
+    /// The axis that points up: 0, 1 or 2 for X, Y or Z.
+    pub up: usize,
     /// The triangles.
     pub triangles: Vec<[u32; 3]>,
     /// The facet of each triangle.
@@ -58,10 +60,9 @@ impl Scene {
     ///
     /// # Errors
     /// Those of [`simplify`]; [`ErrorKind::Polycube`] when there is no valid result.
-    pub fn new(meshes: &MeshFiles, options: &Options, context: &Context) -> Result<Self> {
+    pub fn new(meshes: &MeshFiles, options: &Options, up: usize, context: &Context) -> Result<Self> {
         let (surface, kept) = surface_of(&meshes.polycube)?;
         let input = Input { polycube: &surface, shape: None, labels: meshes.labels.as_deref() };
-        check_fit(meshes)?;
         let result = simplify(&input, options, &context.stage("simplify", 0.0, 0.5))?;
         let Some(after) = result.report.after else {
             let message = "there is no valid result to show: rounding to the lattice made it touch itself";
@@ -71,6 +72,7 @@ impl Scene {
         let polycube = &result.input;
         let (triangles, facet) = triangles(&surface.cells, polycube);
         let mut scene = Self {
+            up,
             triangles,
             facet,
             labels: polycube.structure.facets.iter().map(|f| f.label.index()).collect(),
@@ -96,7 +98,8 @@ impl Scene {
         let settings = align::Options { strategy: result.report.strategy, scale, ..align::Options::default() };
         for round in &result.report.rounds {
             let (structure, input) = (&polycube.structure, &polycube.placement);
-            let levels = align::rescale(structure, input, &round.levels, &settings, &context.stage("layouts", 0.0, 0.1))?;
+            let levels =
+                align::rescale(structure, input, &round.levels, &settings, &context.stage("layouts", 0.0, 0.1))?;
             steps.push((Some(round.clone()), round.counts, levels.iter().map(|&x| x as f64).collect()));
         }
         steps.push((None, after, result.levels.iter().map(|&x| x as f64).collect()));
@@ -118,16 +121,6 @@ fn layout(polycube: &Polycube, mesh: &Mesh, placement: &[f64], scale: f64) -> Re
     let mut pieces = Pieces::new(&Arrangement::new(&polycube.structure, placement));
     pieces.planes.iter_mut().flatten().for_each(|x| *x /= scale);
     Ok(Layout { points: fitted.points.iter().map(|p| p / scale).collect(), pieces })
-}
-
-fn check_fit(meshes: &MeshFiles) -> Result<()> {
-    match &meshes.shape {
-        Some(s) if s.cells != meshes.polycube.cells || s.points.len() != meshes.polycube.points.len() => {
-            let message = "shape and polycube do not have the same vertices and cells";
-            Err(Error::new(ErrorKind::Mismatch, message).remedy("give the pair that one deformation connects"))
-        }
-        _ => Ok(()),
-    }
 }
 
 /// The boundary of a mesh as a mesh of its own, and which vertices it kept.
