@@ -264,10 +264,9 @@ function caption({ object, name, counts }) {
     const box = document.createElement("div"), head = document.createElement("b"), tail = document.createElement("span");
     const titles = { polycube: "Polycube", shape: "Shape", hexes: "Hexahedra" };
     head.textContent = name ? `${titles[object]}, ${name}` : titles[object];
-    const told = counts
-        ? `${number(counts.surface_patches)} patches, ${number(counts.blocks)} blocks`
-        : `${number(data.hexes.statistics.cells)} cells by scaled Jacobian`;
-    tail.textContent = told;
+    tail.textContent = counts
+        ? `${times(counts.surface_patches, "patch", "patches")}, ${times(counts.blocks, "block")}`
+        : `${times(data.hexes.statistics.cells, "cell")} by scaled Jacobian`;
     box.append(head, document.createElement("br"), tail);
     return box;
 }
@@ -317,6 +316,7 @@ function draw() {
 // ---- Words
 
 const number = (x) => x.toLocaleString("en").replaceAll(",", "\u202f");
+const times = (n, one, many = `${one}s`) => `${number(n)} ${n === 1 ? one : many}`;
 
 function tell() {
     const last = data.steps.length - 1, step = Number($("step").value);
@@ -345,7 +345,6 @@ function sentence(step, last) {
     const { lambda, pairs, alignments } = data.steps[step];
     if (step === 0) return "The polycube as it came.";
     if (step === last) return "The result, on the integer lattice.";
-    const times = (n, word) => `${number(n)} ${word}${n === 1 ? "" : "s"}`;
     return `Step ${step} of ${last}: λ = ${lambda === 1 ? "1" : `1/${Math.round(1 / lambda)}`}, ${times(pairs, "pair")} of corners, ${times(alignments, "level")} aligned.`;
 }
 
