@@ -122,6 +122,7 @@ fn job(args: &Args, folder: &Path) -> simplify::Args {
         lambda_min: 0.0,
         objective: None,
         steps: polycube::align::Effort::default().steps_per_level,
+        proof_nodes: polycube::align::Effort::default().proof_nodes,
         time_limit: None,
         simplicity: 1.0,
         max_displacement: None,

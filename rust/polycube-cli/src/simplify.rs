@@ -65,7 +65,7 @@ pub struct Args {
     #[arg(long, value_name = "L", value_parser = fraction, default_value_t = 0.0)]
     pub lambda_min: f64,
 
-    /// Which number shall be small [default: blocks-padded for a volume, surface-patches for a surface without a shape]
+    /// Which number `best` makes small [default: blocks_padded for a volume, surface_patches for a surface]
     #[arg(long, value_enum)]
     pub objective: Option<ObjectiveArg>,
 
@@ -80,6 +80,10 @@ pub struct Args {
     /// The farthest that `best` may move a corner, in units of the polycube [default: no limit]
     #[arg(long, value_name = "D", value_parser = positive)]
     pub max_displacement: Option<f64>,
+
+    /// How long `best` tries to prove that its result cannot be beaten: partial orders looked at
+    #[arg(long, value_name = "N", default_value_t = Effort::default().proof_nodes)]
+    pub proof_nodes: u64,
 
     /// Stop the search after this many seconds with the best found; the result may then differ from run to run
     #[arg(long, value_name = "SECONDS", value_parser = positive)]
@@ -155,9 +159,9 @@ impl clap::ValueEnum for ObjectiveArg {
 
     fn to_possible_value(&self) -> Option<PossibleValue> {
         let (name, help) = match self.0 {
-            Objective::BlocksPadded => ("blocks-padded", "Blocks of the volume with one padding layer around it"),
+            Objective::BlocksPadded => ("blocks_padded", "Blocks of the volume with one padding layer around it"),
             Objective::Blocks => ("blocks", "Blocks of the volume"),
-            Objective::SurfacePatches => ("surface-patches", "Patches of the surface"),
+            Objective::SurfacePatches => ("surface_patches", "Patches of the surface"),
         };
         Some(PossibleValue::new(name).help(help))
     }
@@ -173,6 +177,7 @@ impl Args {
             objective: self.objective.map(|o| o.0),
             effort: Effort {
                 steps_per_level: self.steps,
+                proof_nodes: self.proof_nodes,
                 time_limit: self.time_limit.map(std::time::Duration::from_secs_f64),
             },
             simplicity: Some(self.simplicity),

@@ -56,6 +56,11 @@ fn facts(report: &Report) -> Vec<(&'static str, String)> {
         ("rounds", report.rounds.len().to_string()),
         ("corners moved by", format!("at most {} units of the input", short(report.max_displacement))),
     ];
+    if let Some(bound) = &report.bound {
+        let known =
+            if bound.proven { "this is the optimum, proven".into() } else { format!("at least {}", bound.count) };
+        facts.push(("lower bound", known));
+    }
     if let Some([before, after]) = &report.distortion {
         facts.push((
             "angle distortion",

@@ -1,6 +1,6 @@
 //! The whole method: read the structure, align it, morph the mesh onto the result, and say what happened.
 
-use crate::align::{self, Alignment, Effort, Round, SolverKind, Strategy, TradeOff};
+use crate::align::{self, Alignment, Effort, LowerBound, Round, SolverKind, Strategy, TradeOff};
 use crate::context::Context;
 use crate::error::{Error, ErrorKind, Result};
 use crate::layout::{Counts, Objective, count};
@@ -75,6 +75,8 @@ pub struct Report {
     pub rounds: Vec<Round>,
     /// The trade-off between the count and displacement that the strategy `best` met, from the fewest blocks on.
     pub front: Vec<TradeOff>,
+    /// How far the count can go down at most, as far as the strategy `best` could prove it.
+    pub bound: Option<LowerBound>,
     /// Time spent, in seconds.
     pub seconds: Seconds,
     /// The farthest that a corner moved, in units of the input polycube.
@@ -182,8 +184,8 @@ impl Simplified {
         let arrangement = Arrangement::new(&polycube.structure, &placement);
         let broken = arrangement.conflicts();
         let after = broken.is_empty().then(|| count(&arrangement));
-        let (rounds, front) = (old.rounds.clone(), old.front.clone());
-        let alignment = Alignment { levels, before: old.before, after, rounds, broken, front };
+        let (rounds, front, bound) = (old.rounds.clone(), old.front.clone(), old.bound);
+        let alignment = Alignment { levels, before: old.before, after, rounds, broken, front, bound };
         let aligned = start.elapsed().as_secs_f64();
         let report = report(polycube, &alignment, old.strategy, scale);
         let morphing = context.stage("morph", 0.2, 1.0);
@@ -232,8 +234,9 @@ fn first_of(violations: Vec<Violation>) -> Error {
     error
 }
 
-fn default_objective(_mesh: &Mesh) -> Objective {
-    Objective::BlocksPadded
+/// The objective where none is given: padded blocks for a volume, patches for a surface.
+pub fn default_objective(mesh: &Mesh) -> Objective {
+    if mesh.cells.is_volume() { Objective::BlocksPadded } else { Objective::SurfacePatches }
 }
 
 /// 1 for a polycube that lies on the lattice already, else one step per mean mesh edge.
@@ -291,6 +294,7 @@ fn report(polycube: &Polycube, alignment: &Alignment, strategy: Strategy, scale:
         after: alignment.after,
         rounds: alignment.rounds.clone(),
         front: alignment.front.clone(),
+        bound: alignment.bound,
         seconds: Seconds::default(),
         max_displacement: max_displacement(polycube, &alignment.levels, scale),
         flipped_elements: 0,

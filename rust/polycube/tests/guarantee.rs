@@ -2,7 +2,7 @@
 
 mod common;
 
-use common::{bits, cases, coarse, dense, labels, read, simplify};
+use common::{bits, cases, coarse, dense, labels, paper, read, simplify};
 use nalgebra::Vector3;
 use polycube::align::Strategy;
 use polycube::generate::{perturb, random_polycube, random_with_corners, scale, symmetries, transform, translate};
@@ -46,7 +46,7 @@ fn bytes(result: &Simplified) -> Vec<u8> {
 fn random_polycubes_stay_valid_and_get_no_more_blocks() {
     let (mut handles, mut parts, mut better) = (0, 0, 0);
     for seed in 0..cases(1200) {
-        let result = checked(&sample(seed, CellKind::Quads), &Options::default(), &format!("seed {seed}"));
+        let result = checked(&sample(seed, CellKind::Quads), &paper(), &format!("seed {seed}"));
         let structure = &result.input.structure;
         handles += usize::from(structure.genus() > 0);
         parts += usize::from(structure.components().iter().any(|&c| c > 0));
@@ -61,7 +61,7 @@ fn random_polycubes_stay_valid_and_get_no_more_blocks() {
 fn larger_polycubes_stay_valid() {
     for seed in 0..cases(25) {
         let voxels = random_with_corners(seed, 100 + 20 * seed as usize).unwrap();
-        checked(&coarse(&voxels, CellKind::Quads), &Options::default(), &format!("seed {seed}"));
+        checked(&coarse(&voxels, CellKind::Quads), &paper(), &format!("seed {seed}"));
     }
 }
 
@@ -71,7 +71,7 @@ fn polycubes_off_the_lattice_stay_valid_at_any_scale() {
         let mesh = scale(&sample(seed, CellKind::Quads), 0.37).unwrap();
         let moved = perturb(&mesh, &labels(&read(&mesh)), 0.45, seed).unwrap();
         for steps in [None, Some(0.2), Some(1.0), Some(4.7)] {
-            let options = Options { scale: steps, ..Options::default() };
+            let options = Options { scale: steps, ..paper() };
             checked(&moved, &options, &format!("seed {seed} at {steps:?}"));
         }
     }
@@ -82,7 +82,7 @@ fn every_symmetry_gives_a_valid_result() {
     for seed in 0..cases(12) {
         let mesh = sample(100 + seed, CellKind::Quads);
         for (i, matrix) in symmetries().iter().enumerate() {
-            checked(&transform(&mesh, matrix), &Options::default(), &format!("seed {seed}, symmetry {i}"));
+            checked(&transform(&mesh, matrix), &paper(), &format!("seed {seed}, symmetry {i}"));
         }
     }
 }
@@ -92,9 +92,9 @@ fn translation_by_whole_steps_moves_the_result() {
     for seed in 0..cases(150) {
         let mesh = sample(seed, CellKind::Quads);
         let by = [7, -30, 101];
-        let one = checked(&mesh, &Options::default(), "in place");
+        let one = checked(&mesh, &paper(), "in place");
         let moved = translate(&mesh, Vector3::from(by.map(f64::from)));
-        let other = checked(&moved, &Options::default(), "moved");
+        let other = checked(&moved, &paper(), "moved");
         let axes = one.input.structure.levels.iter().map(|l| l.axis);
         let expected: Vec<i64> = one.levels.iter().zip(axes).map(|(x, a)| x + i64::from(by[a])).collect();
         assert_eq!(other.levels, expected, "seed {seed}");
@@ -106,9 +106,9 @@ fn translation_by_whole_steps_moves_the_result() {
 fn uniform_scaling_with_its_inverse_scale_changes_no_level() {
     for seed in 0..cases(150) {
         let mesh = sample(seed, CellKind::Quads);
-        let one = checked(&mesh, &Options { scale: Some(2.0), ..Options::default() }, "as it is");
+        let one = checked(&mesh, &Options { scale: Some(2.0), ..paper() }, "as it is");
         for factor in [0.125, 4.0] {
-            let options = Options { scale: Some(2.0 / factor), ..Options::default() };
+            let options = Options { scale: Some(2.0 / factor), ..paper() };
             let other = checked(&scale(&mesh, factor).unwrap(), &options, "scaled");
             assert_eq!(other.levels, one.levels, "seed {seed} times {factor}");
         }
@@ -121,8 +121,8 @@ fn labels_in_a_file_do_the_same_as_normals() {
         let mesh = sample(seed, CellKind::Triangles);
         let own = labels(&read(&mesh));
         let input = Input { polycube: &mesh, shape: Some(&mesh), labels: Some(&own) };
-        let given = polycube::simplify::simplify(&input, &Options::default(), &Context::default()).unwrap();
-        assert_eq!(bytes(&given), bytes(&checked(&mesh, &Options::default(), "normals")), "seed {seed}");
+        let given = polycube::simplify::simplify(&input, &paper(), &Context::default()).unwrap();
+        assert_eq!(bytes(&given), bytes(&checked(&mesh, &paper(), "normals")), "seed {seed}");
     }
 }
 
@@ -140,7 +140,7 @@ fn every_kind_of_cells_stays_valid() {
     for seed in 0..cases(120) {
         let results = CellKind::ALL.map(|kind| {
             let mesh = random_polycube(seed, 1 + seed as usize % 7, 9).unwrap().mesh(kind, 2.0).unwrap();
-            let result = checked(&mesh, &Options::default(), &format!("seed {seed} of {kind}"));
+            let result = checked(&mesh, &paper(), &format!("seed {seed} of {kind}"));
             let input = &result.input;
             by_place(&input.structure, &input.placement, &result.levels)
         });
@@ -152,11 +152,11 @@ fn every_kind_of_cells_stays_valid() {
 #[test]
 fn a_second_run_changes_nothing() {
     for seed in 0..cases(300) {
-        let once = checked(&sample(seed, CellKind::Quads), &Options::default(), "first");
+        let once = checked(&sample(seed, CellKind::Quads), &paper(), "first");
         let mesh = once.polycube.clone().unwrap();
         let own = labels(&once.input);
         let input = Input { polycube: &mesh, shape: None, labels: Some(&own) };
-        let twice = polycube::simplify::simplify(&input, &Options::default(), &Context::default()).unwrap();
+        let twice = polycube::simplify::simplify(&input, &paper(), &Context::default()).unwrap();
         assert_eq!(twice.levels, once.levels, "seed {seed}");
         assert_eq!(bytes(&twice), bytes(&once), "seed {seed}");
     }
@@ -166,7 +166,7 @@ fn a_second_run_changes_nothing() {
 fn a_repeated_run_gives_the_same_bytes() {
     for seed in 0..cases(100) {
         let mesh = random_polycube(seed, 6, 12).unwrap().mesh(CellKind::Tetrahedra, 2.0).unwrap();
-        let [one, two] = [(); 2].map(|()| checked(&mesh, &Options::default(), "either"));
+        let [one, two] = [(); 2].map(|()| checked(&mesh, &paper(), "either"));
         assert_eq!(bytes(&one), bytes(&two), "seed {seed}");
         assert_eq!(bits(one.polycube.as_ref().unwrap()), bits(two.polycube.as_ref().unwrap()));
         assert_eq!(one.report.rounds, two.report.rounds, "seed {seed}");
@@ -180,7 +180,7 @@ fn a_bound_of_lambda_trades_blocks_for_fidelity() {
     for seed in 0..cases(150) {
         let mesh = sample(seed, CellKind::Quads);
         for (sum, lambda_min) in blocks.iter_mut().zip([2.0, 1.0, 0.125, 0.0]) {
-            let result = checked(&mesh, &Options { lambda_min, ..Options::default() }, &format!("seed {seed}"));
+            let result = checked(&mesh, &Options { lambda_min, ..paper() }, &format!("seed {seed}"));
             *sum += result.report.after.map_or(0, |c| c.blocks_padded);
             assert!(result.report.rounds.iter().all(|r| r.lambda >= lambda_min), "seed {seed}");
         }
@@ -195,7 +195,7 @@ fn naive_rounding_is_valid_or_says_that_it_is_not() {
     let mut broken = 0;
     for seed in 0..cases(600) {
         let mesh = sample(seed, CellKind::Quads);
-        let options = Options { strategy: Strategy::Naive, scale: Some(0.3), ..Options::default() };
+        let options = Options { strategy: Strategy::Naive, scale: Some(0.3), ..paper() };
         let result = simplify(&mesh, &options).unwrap();
         let independent = dense::check(&result.input.structure, &result.levels);
         assert_eq!(result.report.valid, independent.is_ok(), "seed {seed}: {independent:?}");
@@ -220,7 +220,7 @@ proptest! {
         let turned = transform(&mesh, &symmetries()[symmetry]);
         let moved = perturb(&turned, &labels(&read(&turned)), fraction, seed).unwrap();
         let placed = scale(&translate(&moved, Vector3::from(by)), size).unwrap();
-        let options = Options { scale: steps.map(|s| s / size), ..Options::default() };
+        let options = Options { scale: steps.map(|s| s / size), ..paper() };
         checked(&placed, &options, "random");
     }
 }

@@ -2,7 +2,7 @@
 
 mod common;
 
-use common::{dense, read, simplify};
+use common::{dense, paper, read, simplify};
 use nalgebra::{Rotation3, Vector3};
 use polycube::generate::{Cuboid, SplitMix64, Voxels, random_polycube};
 use polycube::mesh::{CellKind, Cells, Mesh, Point};
@@ -73,7 +73,7 @@ fn turned_polycubes_are_read_and_the_angle_is_told() {
         let straight = read(&mesh);
         let turn = Rotation3::from_axis_angle(&Vector3::z_axis(), 4_f64.to_radians());
         mesh.points.iter_mut().for_each(|p| *p = turn * *p);
-        let result = simplify(&mesh, &Options { scale: Some(1.0), ..Options::default() }).unwrap();
+        let result = simplify(&mesh, &Options { scale: Some(1.0), ..paper() }).unwrap();
         assert_eq!(result.input.structure.edges.len(), straight.structure.edges.len(), "seed {seed}");
         let deviation = result.report.deviation;
         assert!((deviation.degrees - 4.0).abs() < 1e-6, "seed {seed}: {deviation:?}");
@@ -90,7 +90,7 @@ fn noisy_polycubes_have_the_structure_of_the_clean_ones() {
         let mut mesh = clean.clone();
         let mut noise = || 0.2 * rng.unit() - 0.1;
         mesh.points.iter_mut().for_each(|p| *p += Vector3::from([noise(), noise(), noise()]));
-        let result = simplify(&mesh, &Options { scale: Some(1.0), ..Options::default() }).unwrap();
+        let result = simplify(&mesh, &Options { scale: Some(1.0), ..paper() }).unwrap();
         let expected = read(&clean);
         let found = &result.input;
         assert_eq!(found.structure, expected.structure, "seed {seed}");
@@ -297,7 +297,7 @@ fn parts_that_cross_are_named_by_faces_of_both() {
         let Violation::SelfOverlap { face, other } = violation else { panic!("{violation}") };
         assert_ne!(face < 24, other < 24, "one face of each cube");
     }
-    let error = simplify(&mesh, &Options::default()).unwrap_err();
+    let error = simplify(&mesh, &paper()).unwrap_err();
     assert_eq!(error.kind, polycube::ErrorKind::Polycube);
     assert!(matches!(error.place, Some(Place::Face(_))), "{error}");
 }

@@ -3,7 +3,7 @@
 mod common;
 
 use common::data::{models, reference};
-use common::{dense, labels, read, simplify};
+use common::{dense, labels, paper, read, simplify};
 use polycube::generate::{perturb, scale};
 use polycube::layout::{Counts, count};
 use polycube::map::morph;
@@ -71,7 +71,7 @@ fn assert_valid(name: &str, result: &Simplified) -> Counts {
 fn every_model_gets_as_coarse_as_asked_at_every_scale() {
     for (name, mesh) in models() {
         let counts = SCALES.map(|scale| {
-            let options = Options { scale: Some(scale), ..Options::default() };
+            let options = Options { scale: Some(scale), ..paper() };
             let result = simplify(&mesh, &options).expect("real polycubes can be simplified");
             assert_valid(&format!("{name} x {scale}"), &result)
         });
@@ -91,7 +91,7 @@ fn models_off_the_lattice_stay_valid() {
         let own = labels(&read(&mesh));
         for seed in 0..common::cases(3) {
             let moved = perturb(&scale(&mesh, 0.37).unwrap(), &own, 0.3, seed).unwrap();
-            let result = simplify(&moved, &Options::default()).expect("moved polycubes can be simplified");
+            let result = simplify(&moved, &paper()).expect("moved polycubes can be simplified");
             let after = assert_valid(&format!("{name}, moved with seed {seed}"), &result);
             println!("{name} {seed}: {} -> {}", result.report.before.blocks_padded, after.blocks_padded);
         }
@@ -115,11 +115,11 @@ fn a_morph_onto_the_same_levels_changes_no_bit() {
 #[test]
 fn simplifying_again_changes_nothing() {
     for (name, mesh) in models() {
-        let once = simplify(&mesh, &Options::default()).unwrap();
+        let once = simplify(&mesh, &paper()).unwrap();
         let result = once.polycube.clone().expect("a valid result has a mesh");
         let own = labels(&once.input);
         let input = Input { polycube: &result, shape: None, labels: Some(&own) };
-        let twice = polycube::simplify::simplify(&input, &Options::default(), &Context::default()).unwrap();
+        let twice = polycube::simplify::simplify(&input, &paper(), &Context::default()).unwrap();
         assert_eq!(twice.levels, once.levels, "{name}");
         assert_eq!(common::bits(&twice.polycube.unwrap()), common::bits(&result), "{name}");
     }

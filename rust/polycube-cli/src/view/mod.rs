@@ -16,6 +16,7 @@ use crate::progress::Progress;
 use crate::simplify::StrategyArg;
 use crate::terminal;
 use clap::ValueHint;
+use polycube::simplify::default_objective;
 use polycube::{Context, Error, ErrorKind};
 use scene::Scene;
 use std::path::{Path, PathBuf};
@@ -98,6 +99,7 @@ fn work(args: &Args, context: &Context) -> Result<()> {
     let options = polycube::Options {
         strategy: args.strategy.0,
         lambda_min: args.lambda_min,
+        objective: Some(default_objective(&meshes.polycube)),
         tolerance: args.mesh.tolerance.get(),
         ..polycube::Options::default()
     };

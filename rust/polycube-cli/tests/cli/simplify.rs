@@ -49,7 +49,10 @@ fn the_report_has_every_promised_key() {
     sandbox.write_mesh("ring.obj", &coarse(Example::Ring, CellKind::Quads));
     let text = sandbox.ok("simplify ring.obj -o out --scale 2 --lambda-min 0.25");
     let report = sandbox.json("out/report.json");
-    assert_eq!((&report["strategy"], &report["valid"]), (&"paper".into(), &true.into()));
+    assert_eq!((&report["strategy"], &report["valid"]), (&"best".into(), &true.into()));
+    let count = report["after"]["surface_patches"].as_u64();
+    assert!(report["bound"]["count"].as_u64() <= count, "the bound is at most what was reached");
+    assert_eq!(report["front"][0]["count"].as_u64(), count, "the front begins with the fewest");
     assert_eq!((&report["scale"], &report["output"]), (&2.0.into(), &"polycube.obj".into()));
     assert_eq!(report["options"]["lambda_min"], 0.25);
     for count in ["surface_patches", "blocks", "blocks_padded"] {

@@ -85,6 +85,9 @@ fn a_volume_is_shown_by_its_surface_and_hexahedra_by_their_quality() {
     assert!(hexes["statistics"]["min"].as_f64().unwrap() < 1.0);
     assert!(bytes(&data["layouts"][0]["points"]) <= 12 * mesh.points.len());
     assert_eq!((&data["up"], &data["shape"]), (&2.into(), &Value::Null));
+    sandbox.ok("simplify ring.vtu -o out -q");
+    let last = data["steps"].as_array().unwrap().last().unwrap();
+    assert_eq!(last["counts"], sandbox.json("out/report.json")["after"]);
 }
 
 /// Width, height and the pixels of a PNG file.

@@ -3,31 +3,22 @@
 //! [`align`] is the way in. Algorithm 1 pairs corners ([`neighbours`]), turns the pairs and the distances to keep
 //! into an integer [`problem`], [`solve`]s it, checks the result exactly, and repeats.
 
-mod anneal;
-mod best;
 mod classes;
-mod coarsest;
-mod constraints;
-mod front;
-mod greedy;
-mod moves;
-pub mod neighbours;
 mod options;
 mod order;
-mod pairs;
 mod paper;
 pub mod problem;
-mod ranks;
+pub mod prove;
+pub mod ranks;
 mod relax;
-
-mod restart;
+mod search;
 mod separate;
 pub mod solve;
 mod unit;
 
-pub use best::Effort;
 pub use options::{Options, SolverKind, Strategy};
-pub use paper::Round;
+pub use paper::{Round, neighbours};
+pub use search::Effort;
 
 use crate::context::Context;
 use crate::error::{Error, ErrorKind, Result};
@@ -50,6 +41,19 @@ pub struct Alignment {
     pub broken: Vec<Conflict>,
     /// The trade-off between few blocks and little displacement, from the fewest blocks on; only from [`Strategy::Best`].
     pub front: Vec<TradeOff>,
+    /// How far the objective can go down at most; only from [`Strategy::Best`].
+    pub bound: Option<LowerBound>,
+}
+
+/// What is proven of the least count.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, serde::Serialize)]
+pub struct LowerBound {
+    /// No valid polycube of this structure counts less.
+    pub count: usize,
+    /// Whether the search reached it, so that its result is the optimum.
+    pub proven: bool,
+    /// Partial orders looked at.
+    pub nodes: u64,
 }
 
 /// One way to trade blocks for displacement.
@@ -82,8 +86,8 @@ pub fn align(structure: &Structure, input: &[f64], options: &Options, context: &
     let before = count(&arrangement);
     match options.strategy {
         Strategy::Naive => Ok(naive(structure, &targets, before)),
-        Strategy::Paper => restart::simplify(structure, input, &targets, before, options, context),
-        Strategy::Best => coarsest::coarsest(structure, input, &targets, before, options, context),
+        Strategy::Paper => paper::simplify(structure, input, &targets, before, options, context),
+        Strategy::Best => search::coarsest(structure, input, &targets, before, options, context),
     }
 }
 
@@ -127,7 +131,15 @@ fn naive(structure: &Structure, targets: &[f64], before: Counts) -> Alignment {
     let arrangement = Arrangement::new(structure, &placement);
     let broken = arrangement.conflicts();
     let after = broken.is_empty().then(|| count(&arrangement));
-    Alignment { levels: to_integers(&placement), before, after, rounds: Vec::new(), broken, front: Vec::new() }
+    Alignment {
+        levels: to_integers(&placement),
+        before,
+        after,
+        rounds: Vec::new(),
+        broken,
+        front: Vec::new(),
+        bound: None,
+    }
 }
 
 fn to_integers(placement: &[f64]) -> Vec<i64> {

@@ -1,6 +1,6 @@
 //! What the alignment shall do.
 
-use super::best::Effort;
+use super::search::Effort;
 use super::solve::{ExactSolver, LinearSolver, Solver};
 use crate::layout::Objective;
 
@@ -28,7 +28,7 @@ pub enum SolverKind {
     Linear,
 }
 
-/// What [`align`] shall do.
+/// What [`align`](super::align()) shall do.
 #[derive(Clone, Copy, Debug, PartialEq, serde::Serialize)]
 pub struct Options {
     /// How the levels find their places.
@@ -39,7 +39,7 @@ pub struct Options {
     pub lambda_min: f64,
     /// Who solves the integer problems.
     pub solver: SolverKind,
-    /// Which number shall be small.
+    /// Which number [`Strategy::Best`] makes small; Algorithm 1 always minds `blocks_padded`.
     pub objective: Objective,
     /// How long [`Strategy::Best`] searches.
     pub effort: Effort,

@@ -1,7 +1,7 @@
 //! One solve of the integer problem whose result is a valid polycube.
 
 use super::classes::Classes;
-use super::pairs::Pair;
+use super::paper::Pair;
 use super::problem::{Difference, Linear, PairTerm, Problem, ShapeTerm};
 use super::separate::{holds, separations};
 use super::solve::Solver;
@@ -30,13 +30,13 @@ pub struct Demand<'a> {
 /// The solver knows distances only between parts that face each other. When parts that did not face each other
 /// come to touch, the distance that kept them apart in `valid` is added and the problem is solved again. This ends: each
 /// time another change of order is forbidden, and with all of them forbidden the order is that of `valid`.
-pub fn relax(
-    structure: &Structure,
+pub fn relax<'a>(
+    structure: &'a Structure,
     valid: &[f64],
     mut demand: Demand,
     solver: &dyn Solver,
     context: &Context,
-) -> Result<Placement> {
+) -> Result<Arrangement<'a>> {
     let mut start: Vec<i64> = valid.iter().map(|x| x.round() as i64).collect();
     loop {
         let (problem, variables) = problem(structure, &demand);
@@ -45,9 +45,10 @@ pub fn relax(
         let at = |l: u32| levels[variables.of_level[l as usize] as usize];
         start = (0..structure.levels.len() as u32).map(at).collect();
         let placement: Placement = start.iter().map(|&x| x as f64).collect();
-        let violated = violated(structure, valid, &placement);
+        let arrangement = Arrangement::new(structure, &placement);
+        let violated = violated(&arrangement, valid);
         if violated.is_empty() {
-            return Ok(placement);
+            return Ok(arrangement);
         }
         if violated.iter().all(|d| holds(d, &placement)) {
             return Err(Error::new(ErrorKind::Internal, "the surface touches itself though every order is kept"));
@@ -56,9 +57,9 @@ pub fn relax(
     }
 }
 
-/// Differences that `placement` breaks and that keep it valid; empty when it is valid.
-fn violated(structure: &Structure, valid: &[f64], placement: &[f64]) -> Vec<Difference> {
-    let arrangement = Arrangement::new(structure, placement);
+/// Differences that `arrangement` breaks and that keep it valid; empty when it is valid.
+fn violated(arrangement: &Arrangement, valid: &[f64]) -> Vec<Difference> {
+    let (structure, placement) = (arrangement.structure(), arrangement.placement());
     let conflicts = arrangement.conflicts();
     let mut found: Vec<Difference> =
         conflicts.iter().flat_map(|c| separations(structure, c, valid, placement)).collect();

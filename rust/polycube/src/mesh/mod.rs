@@ -1,6 +1,6 @@
 //! Meshes of triangles, quadrilaterals, tetrahedra or hexahedra, their files, and their boundary.
 //!
-//! Reading is safe on any input: a malformed file gives an [`Error`](crate::Error) that says where it is wrong,
+//! Reading is safe on any input: a malformed file gives an [`Error`] that says where it is wrong,
 //! and never a panic, an endless loop, or memory out of proportion to the size of the file.
 
 mod io;

@@ -3,6 +3,7 @@
 use super::boxes::Boxes;
 use super::rectangles::rectangles;
 use super::{Edge, Structure};
+use rayon::prelude::*;
 
 /// A box of the lattice by the levels of its sides; `low` and `high` are equal along an axis where it is flat.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -66,7 +67,7 @@ impl<'a> Arrangement<'a> {
     }
 
     /// The structure put in place.
-    pub fn structure(&self) -> &Structure {
+    pub fn structure(&self) -> &'a Structure {
         self.structure
     }
 
@@ -88,10 +89,10 @@ impl<'a> Arrangement<'a> {
     /// Two facets that meet do so on the border of one of them, so it is enough to look at each edge: it may
     /// meet another edge only in a common corner, and a facet only along that facet's border.
     pub fn conflicts(&self) -> Vec<Conflict> {
-        let folded = self.folded.iter().map(|&f| self.folded_facet(f));
-        let edges = (0..).zip(&self.structure.edges);
-        let meetings = edges.flat_map(|(i, edge)| self.edge_conflicts(i, edge));
-        folded.chain(meetings).collect()
+        let mut conflicts: Vec<Conflict> = self.folded.iter().map(|&f| self.folded_facet(f)).collect();
+        let edges = self.structure.edges.par_iter().with_min_len(512).enumerate();
+        conflicts.par_extend(edges.flat_map_iter(|(i, edge)| self.edge_conflicts(i as u32, edge)));
+        conflicts
     }
 
     /// Components of the surface that look the wrong way: solid inside solid, or hollow in the open. By facet.

@@ -15,6 +15,7 @@ mod violation;
 pub use arrangement::{Arrangement, Conflict, LevelBox};
 pub use label::{Label, area_vector};
 pub use polycube::{Deviation, Polycube, Tolerance};
+pub(crate) use rectangles::rectangles;
 pub use surface::{HalfEdge, Surface};
 pub use violation::Violation;
 

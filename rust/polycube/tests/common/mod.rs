@@ -41,3 +41,8 @@ pub fn cases(few: u64) -> u64 {
     let percent = std::env::var("POLYCUBE_CASES").ok().and_then(|x| x.parse().ok()).unwrap_or(100);
     (few * percent / 100).max(1)
 }
+
+/// Algorithm 1 with its defaults.
+pub fn paper() -> Options {
+    Options { strategy: polycube::align::Strategy::Paper, ..Options::default() }
+}

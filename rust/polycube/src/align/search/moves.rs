@@ -1,6 +1,6 @@
 //! Small changes of an order of levels: the steps of a search.
 
-use super::ranks::Ranks;
+use crate::align::ranks::Ranks;
 use crate::generate::SplitMix64;
 use crate::structure::Structure;
 

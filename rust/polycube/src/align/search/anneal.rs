@@ -2,7 +2,7 @@
 
 use super::front::Front;
 use super::moves::Moves;
-use super::ranks::Ranks;
+use crate::align::ranks::Ranks;
 use crate::context::Context;
 use crate::error::Result;
 use crate::generate::SplitMix64;

@@ -1,11 +1,12 @@
 //! Which corners to align next (paper, section 4).
 
-use super::classes::Classes;
 use super::neighbours::neighbours;
-use super::problem::Difference;
+use crate::align::classes::Classes;
+use crate::align::problem::Difference;
 use crate::context::Context;
 use crate::error::Result;
 use crate::structure::{Arrangement, Structure};
+use rayon::prelude::*;
 
 /// Two corners that shall come to have the same coordinate along an axis.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, serde::Serialize)]
@@ -41,13 +42,16 @@ pub fn candidates(
     let beside = edge_neighbours(structure);
     near.retain(|&[a, b]| {
         let (at_a, at_b) = (&beside[a as usize], &beside[b as usize]);
-        let middle = std::array::from_fn(|k| f64::midpoint(positions[a as usize][k], positions[b as usize][k]));
-        !at_a.contains(&b) && !at_a.iter().any(|c| at_b.contains(c)) && arrangement.contains(middle)
+        !at_a.contains(&b) && !at_a.iter().any(|c| at_b.contains(c))
     });
+    let middle =
+        |[a, b]: [u32; 2]| std::array::from_fn(|k| f64::midpoint(positions[a as usize][k], positions[b as usize][k]));
+    let inside: Vec<[u32; 2]> =
+        near.into_par_iter().with_min_len(1024).filter(|&pair| arrangement.contains(middle(pair))).collect();
     let order = Order::new(classes, differences, arrangement.placement());
     let mut pairs = Vec::new();
     for axis in 0..3 {
-        nearest(structure, &positions, &near, axis, &order, classes, &mut pairs);
+        nearest(structure, &positions, &inside, axis, &order, classes, &mut pairs);
     }
     pairs.sort_unstable();
     pairs.dedup();

@@ -1,16 +1,24 @@
 //! Algorithm 1 of the paper: pair corners, align them, halve λ, until nothing more can be aligned.
 
+mod constraints;
+pub mod neighbours;
+mod pairs;
+mod restart;
+
+pub use pairs::Pair;
+pub use restart::simplify;
+
 use super::classes::Classes;
-use super::constraints::structural;
-use super::pairs::{Pair, candidates};
-use super::problem::{Linear, Problem};
+use super::problem::{Difference, Linear, Problem};
 use super::relax::{Demand, relax};
 use super::solve::Solver;
-use super::to_integers;
+use crate::align::to_integers;
 use crate::context::Context;
 use crate::error::Result;
 use crate::layout::{Counts, count};
-use crate::structure::{Arrangement, Placement, Structure};
+use crate::structure::{Arrangement, Structure};
+use constraints::structural;
+use pairs::candidates;
 
 /// One round of Algorithm 1.
 #[derive(Clone, Debug, PartialEq, serde::Serialize)]
@@ -30,18 +38,18 @@ pub struct Round {
 }
 
 /// Where Algorithm 1 ended.
-pub struct Outcome {
-    /// A valid placement, integer after the first round.
-    pub placement: Placement,
+pub struct Outcome<'a> {
+    /// A valid arrangement, integer after the first round.
+    pub arrangement: Arrangement<'a>,
     /// The alignments found.
     pub classes: Classes,
     /// What happened on the way.
     pub rounds: Vec<Round>,
 }
 
-impl Outcome {
-    /// A placement with the alignments that it has: levels of one axis with one coordinate.
-    pub fn of(structure: &Structure, placement: Placement) -> Self {
+impl<'a> Outcome<'a> {
+    /// A valid placement with the alignments that it has: levels of one axis with one coordinate.
+    pub fn of(structure: &'a Structure, placement: &[f64]) -> Self {
         let mut classes = Classes::new(placement.len());
         let levels = structure.levels.len() as u32;
         for (a, b) in (0..levels).flat_map(|b| (0..b).map(move |a| (a, b))) {
@@ -50,21 +58,15 @@ impl Outcome {
                 classes.join(a, b);
             }
         }
-        Self { placement, classes, rounds: Vec::new() }
+        Self { arrangement: Arrangement::new(structure, placement), classes, rounds: Vec::new() }
     }
 
     /// The finalisation of section 6: as near to `targets` as the alignments found allow, with λ = 1.
-    pub fn settle(
-        &self,
-        structure: &Structure,
-        targets: &[f64],
-        solver: &dyn Solver,
-        context: &Context,
-    ) -> Result<Placement> {
-        let differences = structural(&Arrangement::new(structure, &self.placement));
+    pub fn settle(&self, targets: &[f64], solver: &dyn Solver, context: &Context) -> Result<Arrangement<'a>> {
+        let differences = structural(&self.arrangement);
         let demand =
             Demand { targets, classes: &self.classes, pairs: &[], halvings: 0, differences, planes: Vec::new() };
-        relax(structure, &self.placement, demand, solver, context)
+        relax(self.arrangement.structure(), self.arrangement.placement(), demand, solver, context)
     }
 }
 
@@ -80,13 +82,10 @@ pub struct Settings<'a> {
 }
 
 /// Aligns the corners of a valid placement, given in lattice steps.
-pub fn run(structure: &Structure, input: &[f64], settings: &Settings, context: &Context) -> Result<Outcome> {
-    let mut state = State {
-        structure,
-        input,
-        settings,
-        outcome: Outcome { placement: input.to_vec(), classes: Classes::new(input.len()), rounds: Vec::new() },
-    };
+pub fn run<'a>(structure: &'a Structure, input: &[f64], settings: &Settings, context: &Context) -> Result<Outcome<'a>> {
+    let classes = Classes::new(input.len());
+    let outcome = Outcome { arrangement: Arrangement::new(structure, input), classes, rounds: Vec::new() };
+    let mut state = State { input, settings, outcome, plan: None };
     for halvings in 0..=Problem::MAX_HALVINGS {
         let lambda = 0.5_f64.powi(halvings as i32);
         context.tick(f64::from(halvings) / f64::from(Problem::MAX_HALVINGS))?;
@@ -97,60 +96,89 @@ pub fn run(structure: &Structure, input: &[f64], settings: &Settings, context: &
     Ok(state.outcome)
 }
 
-struct State<'a> {
-    structure: &'a Structure,
-    input: &'a [f64],
-    settings: &'a Settings<'a>,
-    outcome: Outcome,
+/// What the present arrangement asks the next round to do.
+#[derive(Clone)]
+struct Plan {
+    differences: Vec<Difference>,
+    pairs: Vec<Pair>,
+    planes: Vec<Linear>,
+    counts: Counts,
 }
 
-impl State<'_> {
+struct State<'a, 's> {
+    input: &'s [f64],
+    settings: &'s Settings<'s>,
+    outcome: Outcome<'a>,
+    /// Kept from the last round if that changed nothing.
+    plan: Option<Plan>,
+}
+
+impl State<'_, '_> {
     /// Pairs and aligns once; `false` when no pair is left or no smaller λ can change anything.
     fn round(&mut self, halvings: u32, context: &Context) -> Result<bool> {
-        let arrangement = Arrangement::new(self.structure, &self.outcome.placement);
-        let differences = structural(&arrangement);
-        let pairs = candidates(&arrangement, &self.outcome.classes, &differences, context)?;
-        if pairs.is_empty() {
+        let plan = match self.plan.take() {
+            Some(plan) => plan,
+            None => self.make_plan(context)?,
+        };
+        if plan.pairs.is_empty() {
             return Ok(false);
         }
-        let mut planes = Vec::new();
-        if self.settings.oblique_planes {
-            planes.extend(pairs.iter().flat_map(|p| self.oblique(p)));
-        }
+        let (structure, before) = (self.outcome.arrangement.structure(), self.outcome.arrangement.placement());
         let demand = Demand {
             targets: self.input,
             classes: &self.outcome.classes,
-            pairs: &pairs,
+            pairs: &plan.pairs,
             halvings,
-            differences,
-            planes,
+            differences: plan.differences.clone(),
+            planes: plan.planes.clone(),
         };
-        self.outcome.placement = relax(self.structure, &self.outcome.placement, demand, self.settings.solver, context)?;
-        let alignments = self.keep(&pairs);
-        let counts = count(&Arrangement::new(self.structure, &self.outcome.placement));
+        let arrangement = relax(structure, before, demand, self.settings.solver, context)?;
+        let moved = arrangement.placement() != before;
+        self.outcome.arrangement = arrangement;
+        let alignments = self.keep(&plan.pairs);
+        let counts = if moved { count(&self.outcome.arrangement) } else { plan.counts };
         let lambda = 0.5_f64.powi(halvings as i32);
-        let levels = to_integers(&self.outcome.placement);
-        self.outcome.rounds.push(Round { lambda, pairs: pairs.len(), alignments, counts, levels });
+        let levels = to_integers(self.outcome.arrangement.placement());
+        self.outcome.rounds.push(Round { lambda, pairs: plan.pairs.len(), alignments, counts, levels });
+        self.plan = (!moved && alignments == 0).then_some(plan);
         Ok(alignments > 0 || lambda * self.pull() >= 1.0)
+    }
+
+    fn make_plan(&self, context: &Context) -> Result<Plan> {
+        let arrangement = &self.outcome.arrangement;
+        let differences = structural(arrangement);
+        let pairs = candidates(arrangement, &self.outcome.classes, &differences, context)?;
+        let planes = if self.settings.oblique_planes {
+            pairs.iter().flat_map(|p| self.oblique(p)).collect()
+        } else {
+            Vec::new()
+        };
+        let counts = self.outcome.rounds.last().map_or_else(|| count(arrangement), |r| r.counts);
+        Ok(Plan { differences, pairs, planes, counts })
     }
 
     /// Joins the levels of every pair that came together.
     fn keep(&mut self, pairs: &[Pair]) -> usize {
-        let outcome = &mut self.outcome;
-        let met = |[a, b]: &[u32; 2]| outcome.placement[*a as usize] == outcome.placement[*b as usize];
-        let met: Vec<[u32; 2]> = pairs.iter().map(|p| p.levels(self.structure)).filter(met).collect();
-        met.into_iter().filter(|&[a, b]| outcome.classes.join(a, b)).count()
+        let (structure, placement) = (self.outcome.arrangement.structure(), self.outcome.arrangement.placement());
+        let met = |[a, b]: &[u32; 2]| placement[*a as usize] == placement[*b as usize];
+        let classes = &mut self.outcome.classes;
+        pairs.iter().map(|p| p.levels(structure)).filter(met).filter(|&[a, b]| classes.join(a, b)).count()
     }
 
     /// An upper bound of what moving every level by its present displacement costs in E_shape. Once λ times this
     /// is under the least change of the integer E_align, a smaller λ changes nothing.
     fn pull(&self) -> f64 {
-        let levels = self.structure.levels.iter().zip(self.input).zip(&self.outcome.placement);
+        let arrangement = &self.outcome.arrangement;
+        let levels = arrangement.structure().levels.iter().zip(self.input).zip(arrangement.placement());
         levels.map(|((l, t), x)| f64::from(l.corners) * (x - t) * (x - t)).sum()
     }
 
+    fn position(&self, corner: u32) -> [f64; 3] {
+        self.outcome.arrangement.structure().position(corner, self.outcome.arrangement.placement())
+    }
+
     fn difference_of(&self, pair: &Pair) -> [f64; 3] {
-        let [p, q] = pair.corners.map(|c| self.structure.position(c, &self.outcome.placement));
+        let [p, q] = pair.corners.map(|c| self.position(c));
         std::array::from_fn(|k| q[k] - p[k])
     }
 
@@ -158,10 +186,10 @@ impl State<'_> {
     /// coordinates `2 n·c` and `n·(c + c')` are integers, so `>` means one half more.
     fn oblique(&self, pair: &Pair) -> [Linear; 2] {
         let normal = self.difference_of(pair);
-        let [p, q] = pair.corners.map(|c| self.structure.position(c, &self.outcome.placement));
+        let [p, q] = pair.corners.map(|c| self.position(c));
         let middle: f64 = (0..3).map(|k| normal[k] * f64::midpoint(p[k], q[k])).sum();
         let side = |corner: u32, sign: f64| {
-            let levels = self.structure.corners[corner as usize].levels;
+            let levels = self.outcome.arrangement.structure().corners[corner as usize].levels;
             let terms = (0..3).filter(|&k| normal[k] != 0.0).map(|k| (levels[k], sign * normal[k])).collect();
             Linear { terms, at_least: sign * middle + 0.5 }
         };

@@ -1,20 +1,19 @@
 //! The strategy `best`, from the input to the chosen trade-off.
 
 use super::anneal::State;
-use super::best::{self, Found};
-use super::order::place_in_order;
-use super::paper::Outcome;
-use super::restart::simplify;
-use super::solve::Solver;
-use super::unit::Unit;
-use super::{Alignment, Options, TradeOff, to_integers};
+use super::{Found, is_searchable, search};
+use crate::align::order::place_in_order;
+use crate::align::paper::{Outcome, simplify};
+use crate::align::solve::Solver;
+use crate::align::unit::Unit;
+use crate::align::{Alignment, LowerBound, Options, TradeOff, to_integers};
 use crate::context::Context;
 use crate::error::Result;
 use crate::layout::{Counts, Objective, count};
 use crate::structure::{Arrangement, Placement, Structure};
 
 /// Algorithm 1, then the search.
-pub(super) fn coarsest(
+pub fn coarsest(
     structure: &Structure,
     input: &[f64],
     targets: &[f64],
@@ -22,20 +21,28 @@ pub(super) fn coarsest(
     options: &Options,
     context: &Context,
 ) -> Result<Alignment> {
-    let paper = simplify(structure, input, targets, before, options, &context.stage("align", 0.0, 0.2))?;
-    if !best::is_searchable(structure) {
-        return Ok(paper);
+    let aligning = context.stage("align", 0.0, 0.2);
+    if !is_searchable(structure) {
+        return simplify(structure, input, targets, before, options, &aligning);
     }
+    // On its own lattice Algorithm 1 gives the search the same start at every scale.
+    let own = Unit::of(structure, input).apply(structure, input);
+    let paper = simplify(structure, input, &own, before, options, &aligning)?;
     let start: Placement = paper.levels.iter().map(|&x| x as f64).collect();
     let searching = context.stage("search", 0.2, 1.0);
-    let found = best::search(structure, input, &start, options.objective, &options.effort, &searching)?;
+    let found = search(structure, input, &start, options.objective, &options.effort, &searching)?;
     let solver = options.solver.solver();
     let chosen = choose(structure, &found, targets, options, &*solver, context)?;
     let order = relaxed(structure, input, &chosen, options.objective, &*solver, context)?;
     let levels = place_in_order(structure, &order, targets, &*solver, context)?;
     let after = count(&Arrangement::new(structure, &levels));
+    if after.blocks_padded > before.blocks_padded {
+        // Fewer patches can mean more blocks; the promise is never more of them than there were.
+        return simplify(structure, input, targets, before, options, context);
+    }
     let front = found.front.states().map(|s| trade_off(structure, s)).collect();
-    Ok(Alignment { levels: to_integers(&levels), after: Some(after), front, ..paper })
+    let bound = Some(LowerBound { count: found.proof.bound, proven: found.proof.proven, nodes: found.proof.nodes });
+    Ok(Alignment { levels: to_integers(&levels), after: Some(after), front, bound, ..paper })
 }
 
 fn trade_off(structure: &Structure, state: &State) -> TradeOff {
@@ -81,7 +88,8 @@ fn relaxed(
 ) -> Result<Placement> {
     let fine = Unit::of(structure, input).apply(structure, input);
     let start = place_in_order(structure, found, &fine, solver, context)?;
-    let near = Outcome::of(structure, start.clone()).settle(structure, &fine, solver, context)?;
-    let counted = |placement: &[f64]| count(&Arrangement::new(structure, placement)).of(objective);
-    Ok(if counted(&near) <= counted(&start) { near } else { start })
+    let outcome = Outcome::of(structure, &start);
+    let near = outcome.settle(&fine, solver, context)?;
+    let no_worse = count(&near).of(objective) <= count(&outcome.arrangement).of(objective);
+    Ok(if no_worse { near.placement().to_vec() } else { start })
 }

@@ -1,15 +1,22 @@
 //! The strategy `best`: Algorithm 1 and greedy merging, then annealing from both; the coarsest valid result wins.
 
-use super::anneal::{Chain, Landscape, Schedule, State};
-use super::front::Front;
-use super::greedy;
-use super::moves::Moves;
+mod anneal;
+mod coarsest;
+mod front;
+mod greedy;
+mod moves;
+
+pub use coarsest::coarsest;
+
+use super::prove::{Proof, prove};
 use super::ranks::Ranks;
 use crate::context::Context;
 use crate::error::Result;
-use crate::layout::Objective;
-use crate::layout::Rows;
+use crate::layout::{Objective, Rows};
 use crate::structure::{Placement, Structure};
+use anneal::{Chain, Landscape, Schedule, State};
+use front::Front;
+use moves::Moves;
 use num_traits::PrimInt;
 use std::time::{Duration, Instant};
 
@@ -18,13 +25,15 @@ use std::time::{Duration, Instant};
 pub struct Effort {
     /// Moves tried per level in each of the four chains; the result is the same for the same number.
     pub steps_per_level: u32,
+    /// Partial orders that the proof of a lower bound looks at; 0 for a quick bound.
+    pub proof_nodes: u64,
     /// Stop after this time, with the best found; the result then depends on the machine.
     pub time_limit: Option<Duration>,
 }
 
 impl Default for Effort {
     fn default() -> Self {
-        Self { steps_per_level: 400, time_limit: None }
+        Self { steps_per_level: 400, proof_nodes: 200, time_limit: None }
     }
 }
 
@@ -42,6 +51,8 @@ pub struct Found {
     pub placement: Placement,
     /// Orders between the coarsest and the input.
     pub front: Front,
+    /// What is known of the least count.
+    pub proof: Proof,
 }
 
 /// Whether [`search`] can handle a structure: it needs 126 levels or fewer on one axis.
@@ -106,8 +117,13 @@ fn run<R: PrimInt + Send>(
             best = state;
         }
     }
-    let placement = front.states().next().unwrap_or(&best).ranks.placement();
-    Ok(Found { placement, front })
+    let incumbent = front.states().next().unwrap_or(&best).ranks.clone();
+    let left = landscape.deadline.map(|d| d.saturating_duration_since(Instant::now()));
+    let proof = prove(landscape.structure, landscape.objective, &incumbent, effort.proof_nodes, left, context)?;
+    if let Some(state) = chain.state(proof.best.clone()) {
+        front.offer(&state);
+    }
+    Ok(Found { placement: proof.best.placement(), front, proof })
 }
 
 /// All chains, two at a time. What they find does not depend on how they are scheduled.
