@@ -1,6 +1,6 @@
 //! The command line: subcommands and what they have in common.
 
-use crate::{completions, demo, inspect, simplify, validate};
+use crate::{completions, demo, inspect, simplify, validate, view};
 use clap::{Args, Parser, Subcommand, ValueHint};
 use polycube::structure::Tolerance;
 use std::path::PathBuf;
@@ -38,6 +38,8 @@ pub enum Command {
     Validate(validate::Args),
     /// Write example polycubes made by the program and simplify one of them
     Demo(demo::Args),
+    /// Write a page that shows the simplification step by step, and a picture
+    View(view::Args),
     /// Print a completion script for a shell
     Completions(completions::Args),
 }

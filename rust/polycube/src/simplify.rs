@@ -206,7 +206,8 @@ fn finish(
 ) -> Result<Simplified> {
     let mut result = None;
     if report.valid {
-        let mesh = fit(&polycube, input.polycube, &levels, report.scale, context)?;
+        let placement: Vec<f64> = levels.iter().map(|&x| x as f64).collect();
+        let mesh = fit(&polycube, input.polycube, &placement, report.scale, context)?;
         judge(&mut report, input, &polycube, &mesh)?;
         result = Some(mesh);
     }
@@ -233,7 +234,8 @@ fn first_of(violations: Vec<Violation>) -> Error {
     error
 }
 
-fn default_objective(mesh: &Mesh) -> Objective {
+/// The objective where none is given: padded blocks for a volume, patches for a surface.
+pub fn default_objective(mesh: &Mesh) -> Objective {
     if mesh.cells.is_volume() { Objective::BlocksPadded } else { Objective::SurfacePatches }
 }
 
@@ -249,12 +251,15 @@ fn default_scale(polycube: &Polycube, mesh: &Mesh) -> f64 {
     count / sum
 }
 
-/// The mesh, scaled to the lattice and morphed onto `levels`.
-fn fit(polycube: &Polycube, mesh: &Mesh, levels: &[i64], scale: f64, context: &Context) -> Result<Mesh> {
+/// The mesh that `polycube` was read from, scaled by `scale` and morphed onto `placement`, which is in scaled units: how
+/// [`simplify`] makes its result, for any other placement of the levels.
+///
+/// # Errors
+/// Those of [`morph()`].
+pub fn fit(polycube: &Polycube, mesh: &Mesh, placement: &[f64], scale: f64, context: &Context) -> Result<Mesh> {
     let points: Vec<Point> = mesh.points.iter().map(|p| p * scale).collect();
     let mut fitted = Mesh { points, cells: mesh.cells.clone() };
-    let placement: Vec<f64> = levels.iter().map(|&x| x as f64).collect();
-    let fixed = straight_edges(polycube, &fitted.points, &placement);
+    let fixed = straight_edges(polycube, &fitted.points, placement);
     fitted.points = morph(&fitted, &fixed, context)?;
     Ok(fitted)
 }

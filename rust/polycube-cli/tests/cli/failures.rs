@@ -97,7 +97,7 @@ fn help_and_completions_know_every_subcommand() {
     }
     for shell in ["bash", "zsh", "fish", "powershell", "elvish"] {
         let script = sandbox.ok(&format!("completions {shell}"));
-        for name in ["simplify", "inspect", "validate", "demo", "completions", "--edge-length"] {
+        for name in ["simplify", "inspect", "validate", "demo", "view", "completions", "--edge-length"] {
             assert!(script.contains(name.trim_start_matches('-')), "{shell}: {name}");
             assert!(help.contains(name) || name.starts_with('-'));
         }

@@ -8,6 +8,7 @@ mod interrupt;
 mod real;
 mod simplify;
 mod validate;
+mod view;
 
 use polycube::generate::Example;
 use polycube::mesh::CellKind;

@@ -12,6 +12,7 @@ use super::classes::Classes;
 use super::problem::{Difference, Linear, Problem};
 use super::relax::{Demand, relax};
 use super::solve::Solver;
+use crate::align::to_integers;
 use crate::context::Context;
 use crate::error::Result;
 use crate::layout::{Counts, count};
@@ -20,7 +21,7 @@ use constraints::structural;
 use pairs::candidates;
 
 /// One round of Algorithm 1.
-#[derive(Clone, Copy, Debug, PartialEq, serde::Serialize)]
+#[derive(Clone, Debug, PartialEq, serde::Serialize)]
 pub struct Round {
     /// The weight of the attraction to the input.
     pub lambda: f64,
@@ -30,6 +31,10 @@ pub struct Round {
     pub alignments: usize,
     /// Counts after the round.
     pub counts: Counts,
+    /// Where the levels lie after the round, on the lattice of the rounds; [`rescale`](super::rescale) brings them to
+    /// the scale of a result. Not written to reports.
+    #[serde(skip)]
+    pub levels: Vec<i64>,
 }
 
 /// Where Algorithm 1 ended.
@@ -133,7 +138,8 @@ impl State<'_, '_> {
         let alignments = self.keep(&plan.pairs);
         let counts = if moved { count(&self.outcome.arrangement) } else { plan.counts };
         let lambda = 0.5_f64.powi(halvings as i32);
-        self.outcome.rounds.push(Round { lambda, pairs: plan.pairs.len(), alignments, counts });
+        let levels = to_integers(self.outcome.arrangement.placement());
+        self.outcome.rounds.push(Round { lambda, pairs: plan.pairs.len(), alignments, counts, levels });
         self.plan = (!moved && alignments == 0).then_some(plan);
         Ok(alignments > 0 || lambda * self.pull() >= 1.0)
     }

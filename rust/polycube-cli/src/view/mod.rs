@@ -1,0 +1,132 @@
+//! `polycube view`.
+
+mod cells;
+mod colour;
+mod hexes;
+mod page;
+mod picture;
+mod raster;
+mod scene;
+
+use crate::args::{PolycubeArgs, fraction};
+use crate::failure::{Failure, Result};
+use crate::mesh_files::MeshFiles;
+use crate::output::Output;
+use crate::progress::Progress;
+use crate::simplify::StrategyArg;
+use crate::terminal;
+use clap::ValueHint;
+use polycube::simplify::default_objective;
+use polycube::{Context, Error, ErrorKind};
+use scene::Scene;
+use std::path::{Path, PathBuf};
+use std::process::ExitCode;
+
+const NOTES: &str = "\
+The page is one file that needs no network: open it in any browser. It shows the layout on the polycube and on the shape,
+for the input, after each round of the simplification, and for the result. The picture shows input and result.";
+
+/// What to show.
+#[derive(clap::Args, Clone, Debug)]
+#[command(after_help = NOTES)]
+pub struct Args {
+    /// The mesh, its labels and its tolerances.
+    #[command(flatten)]
+    mesh: PolycubeArgs,
+
+    /// The shape that the polycube was deformed from, with the same vertices and cells
+    #[arg(long, value_name = "SHAPE", value_hint = ValueHint::FilePath)]
+    shape: Option<PathBuf>,
+
+    /// A hexahedral mesh to show beside it, coloured by quality
+    #[arg(long, value_name = "FILE", value_hint = ValueHint::FilePath)]
+    hexes: Option<PathBuf>,
+
+    /// The page to write
+    #[arg(short, long, value_name = "PAGE", value_hint = ValueHint::FilePath)]
+    output: PathBuf,
+
+    /// A picture to write, too: PNG, drawn without a display
+    #[arg(long, value_name = "PICTURE", value_hint = ValueHint::FilePath)]
+    png: Option<PathBuf>,
+
+    /// Width of each of the two or four parts of the picture, in pixels; they are square
+    #[arg(long, value_name = "PIXELS", value_parser = clap::value_parser!(u32).range(16..=4096), default_value_t = 640)]
+    png_size: u32,
+
+    /// The axis that points up
+    #[arg(long, value_enum, default_value_t = Axis::Y)]
+    up: Axis,
+
+    /// How the levels find their places
+    #[arg(long, value_enum, default_value_t)]
+    strategy: StrategyArg,
+
+    /// Stop before the weight λ of staying close to the input falls below this, from 0 (coarsest) to 1 (one round)
+    #[arg(long, value_name = "L", value_parser = fraction, default_value_t = 0.0)]
+    lambda_min: f64,
+
+    /// Print nothing but errors
+    #[arg(short, long)]
+    quiet: bool,
+}
+
+/// An axis.
+#[derive(Clone, Copy, Debug, clap::ValueEnum)]
+enum Axis {
+    X,
+    Y,
+    Z,
+}
+
+/// Simplifies and writes the page.
+pub fn run(args: &Args) -> Result<ExitCode> {
+    let progress = Progress::start(args.quiet)?;
+    work(args, &progress.context)?;
+    drop(progress);
+    if !args.quiet {
+        let pictures = args.png.iter().map(|path| format!("{}\n", path.display()));
+        let files: String = std::iter::once(format!("{}\n", args.output.display())).chain(pictures).collect();
+        terminal::print(&files)?;
+    }
+    Ok(ExitCode::SUCCESS)
+}
+
+fn work(args: &Args, context: &Context) -> Result<()> {
+    context.stage("read", 0.0, 0.1).tick(0.0)?;
+    let meshes = MeshFiles::read(&args.mesh.polycube, args.shape.as_deref(), args.mesh.labels.as_deref())?;
+    let hexes = args.hexes.as_deref().map(hexes::read).transpose()?;
+    let options = polycube::Options {
+        strategy: args.strategy.0,
+        lambda_min: args.lambda_min,
+        objective: Some(default_objective(&meshes.polycube)),
+        tolerance: args.mesh.tolerance.get(),
+        ..polycube::Options::default()
+    };
+    let about = Failure::in_file(&args.mesh.polycube);
+    let scene = Scene::new(&meshes, &options, args.up as usize, &context.stage("view", 0.1, 0.9)).map_err(about)?;
+    let writing = context.stage("write", 0.9, 1.0);
+    let picture = args.png.as_ref().map(|_| picture::png(&scene, args.png_size, &writing)).transpose()?;
+    let page = page::html(&title(&args.mesh.polycube), &scene, hexes.as_ref())?;
+    if let (Some(path), Some(bytes)) = (&args.png, picture) {
+        write(path, &bytes, context)?;
+    }
+    write(&args.output, page.as_bytes(), context)
+}
+
+fn title(path: &Path) -> String {
+    let name = path.file_name().unwrap_or(path.as_os_str()).to_string_lossy();
+    name.split('.').next().unwrap_or_default().to_owned()
+}
+
+/// Writes a file whole or not at all, and makes its folder.
+fn write(path: &Path, bytes: &[u8], context: &Context) -> Result<()> {
+    let (Some(name), Some(folder)) = (path.file_name().and_then(|n| n.to_str()), path.parent()) else {
+        let message = format!("{} is not the name of a file", path.display());
+        return Err(Error::new(ErrorKind::Option, message).remedy("name a file to write").into());
+    };
+    let folder = if folder.as_os_str().is_empty() { Path::new(".") } else { folder };
+    let mut output = Output::new(folder)?;
+    output.add(name, bytes)?;
+    Ok(output.publish(&[], context)?)
+}
