@@ -1,0 +1,103 @@
+//! Makes the map between shape and polycube one to one before it is used.
+
+use crate::context::Context;
+use crate::error::Result;
+use crate::mesh::{Cells, Face, Mesh, Point, split_quad};
+use crate::optimise::{Elements, Freedom, Settings, optimise};
+use crate::structure::{Label, Polycube, area_vector};
+use nalgebra::Vector3;
+
+/// Untangling alone, and just enough of it.
+const TETRAHEDRA: Settings = Settings {
+    theta: 0.1,
+    untangle_rounds: 20,
+    untangle_iterations: 50,
+    improve_rounds: 0,
+    improve_iterations: 0,
+    strength: 10.0,
+    polish_rounds: 0,
+};
+
+/// Untangling, and smoothing of the map by two rounds of improvement.
+const SURFACE: Settings = Settings {
+    theta: 0.1,
+    untangle_rounds: 40,
+    untangle_iterations: 100,
+    improve_rounds: 2,
+    improve_iterations: 50,
+    strength: 0.0,
+    polish_rounds: 0,
+};
+
+/// Turns the tetrahedra of a polycube the right way round, each to look like that of the shape; surface vertices stay on
+/// their facets and edges. Other cells are left as they are. Returns how many are still turned over.
+pub(super) fn volume(polycube: &Polycube, mesh: &mut Mesh, shape: &[Point], context: &Context) -> Result<usize> {
+    let Cells::Tetrahedra(cells) = &mesh.cells else { return Ok(0) };
+    let elements = Elements::tetrahedra_like(cells, shape)?;
+    let freedom: Vec<Freedom> = freedoms(polycube);
+    Ok(optimise(&mut mesh.points, &elements, &freedom, &[], &TETRAHEDRA, context)?.inverted_after)
+}
+
+fn freedoms(polycube: &Polycube) -> Vec<Freedom> {
+    polycube.vertex_levels.iter().map(|levels| Freedom::Axes(levels.map(|l| l.is_some()))).collect()
+}
+
+/// Moves the surface vertices of a polycube in their facets and along their edges so that no triangle is turned over
+/// and each looks like that of the shape, as far as that goes. Inner vertices stay. Returns how many are still turned
+/// over.
+///
+/// Each triangle becomes a tetrahedron by a vertex of its own that floats in a plane above it, so that the
+/// tetrahedron is inverted just where the triangle is.
+pub(super) fn surface(polycube: &Polycube, points: &mut Vec<Point>, shape: &[Point], context: &Context) -> Result<usize> {
+    let lifted = Lifted::new(polycube, points, shape);
+    let mut moved: Vec<Point> = points.iter().chain(&lifted.above).copied().collect();
+    let rest: Vec<Point> = shape.iter().chain(&lifted.above_shape).copied().collect();
+    let mut freedom = freedoms(polycube);
+    let free = Freedom::Axes([false; 3]);
+    freedom.iter_mut().filter(|f| **f == free).for_each(|f| *f = Freedom::Fixed);
+    freedom.extend(lifted.labels.iter().map(|l| Freedom::Axes(std::array::from_fn(|a| a == l.axis()))));
+    let elements = Elements::tetrahedra_like(&lifted.tetrahedra, &rest)?;
+    let report = optimise(&mut moved, &elements, &freedom, &[], &SURFACE, context)?;
+    moved.truncate(points.len());
+    *points = moved;
+    Ok(report.inverted_after)
+}
+
+/// The triangles of a surface as tetrahedra.
+struct Lifted {
+    tetrahedra: Vec<[u32; 4]>,
+    labels: Vec<Label>,
+    /// The fourth vertex of each over the polycube.
+    above: Vec<Point>,
+    /// The same over the shape.
+    above_shape: Vec<Point>,
+}
+
+impl Lifted {
+    fn new(polycube: &Polycube, points: &[Point], shape: &[Point]) -> Self {
+        let area = |points: &[Point]| -> f64 {
+            polycube.surface.faces().iter().map(|f| area_vector(points, f).norm()).sum()
+        };
+        let stretch = (area(points) / area(shape)).sqrt();
+        let mut lifted = Self { tetrahedra: vec![], labels: vec![], above: vec![], above_shape: vec![] };
+        for (face, label) in polycube.surface.faces().iter().zip(polycube.labels()) {
+            match *face {
+                Face::Triangle(t) => lifted.add(t, label, points, shape, stretch),
+                Face::Quad(q) => split_quad(q).into_iter().for_each(|t| lifted.add(t, label, points, shape, stretch)),
+            }
+        }
+        lifted
+    }
+
+    fn add(&mut self, t: [u32; 3], label: Label, points: &[Point], shape: &[Point], stretch: f64) {
+        let middle = |at: &[Point]| Point::from(t.iter().map(|&v| at[v as usize].coords).sum::<Vector3<f64>>() / 3.0);
+        let area = area_vector(shape, &Face::Triangle(t));
+        let height = area.norm().sqrt();
+        let mut up = Vector3::zeros();
+        up[label.axis()] = f64::from(label.sign());
+        self.tetrahedra.push([t[0], t[1], t[2], (points.len() + self.above.len()) as u32]);
+        self.labels.push(label);
+        self.above.push(middle(points) + up * (height * stretch));
+        self.above_shape.push(middle(shape) + area.try_normalize(0.0).unwrap_or(up) * height);
+    }
+}
