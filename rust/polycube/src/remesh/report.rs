@@ -117,7 +117,8 @@ pub(super) fn measure(
         within_hausdorff: distance <= options.max_hausdorff * diagonal,
         seconds,
     };
-    report.add_notes(options);
+    let faults = report.faults();
+    report.simplify.notes.extend(faults);
     report.seconds.measure = start.elapsed().as_secs_f64();
     Ok(report)
 }
@@ -128,17 +129,19 @@ impl RemeshReport {
         self.inverted == 0 && self.within_hausdorff
     }
 
-    fn add_notes(&mut self, options: &RemeshOptions) {
-        let notes = &mut self.simplify.notes;
+    /// What is not as good as asked for, in plain words.
+    pub fn faults(&self) -> Vec<String> {
+        let mut faults = Vec::new();
         if self.inverted > 0 {
-            notes.push(format!("{} hexahedra are inverted: \"inverted_cells\" tells where", self.inverted));
+            faults.push(format!("{} hexahedra are inverted: \"inverted_cells\" in the report tells where", self.inverted));
         }
         if !self.within_hausdorff {
-            let (found, bound) = (self.hausdorff_percent, 100.0 * options.max_hausdorff);
-            notes.push(format!(
-                "the Hausdorff distance is {found:.3} % of the diagonal, more than the {bound} % asked for: a finer mesh is nearer"
+            faults.push(format!(
+                "the Hausdorff distance is {:.3} % of the diagonal, more than asked for: a finer mesh is nearer",
+                self.hausdorff_percent
             ));
         }
+        faults
     }
 }
 
