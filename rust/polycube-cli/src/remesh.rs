@@ -1,6 +1,6 @@
 //! `polycube remesh`.
 
-use crate::args::{PolycubeArgs, ToleranceArgs, percent, positive};
+use crate::args::{ToleranceArgs, percent, positive};
 use crate::failure::{Failure, INFERIOR, Result};
 use crate::mesh_files::MeshFiles;
 use crate::output::Output;

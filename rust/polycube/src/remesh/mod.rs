@@ -19,6 +19,7 @@ mod locate;
 mod padding;
 mod pipeline;
 mod quads;
+mod refine;
 mod report;
 mod site;
 mod size;
@@ -80,12 +81,6 @@ impl<'a> Remesher<'a> {
         let surface = SurfaceMap::new(&simplified.input, &polycube.points, &shape.points);
         context.tick(1.0)?;
         Ok(Self { simplified, polycube, shape: &shape.points, grid, surface, volume: OnceLock::new() })
-    }
-
-    /// The same without the map of the volume: the inside is solved for, as for surfaces.
-    #[must_use]
-    pub fn solving_inside(self) -> Self {
-        Self { volume: OnceLock::from(None), ..self }
     }
 
     /// The tetrahedral map, indexed at its first use; nothing for surfaces.

@@ -1,6 +1,7 @@
 //! The whole way from a polycube and its shape to a block structure, quadrilaterals and hexahedra.
 
 use super::report::{RemeshReport, Stages, cells_of, measure};
+use super::refine::Refined;
 use super::slide::Slides;
 use super::{Hexes, Layout, Quads, Remesher, Size, scale_for, untangle};
 use crate::align::Strategy;
@@ -80,9 +81,9 @@ pub fn remesh(input: &Input, options: &RemeshOptions, context: &Context) -> Resu
     let mut simplified = sized(input, options, &context.stage("simplify", 0.0, 0.3))?;
     let mut stages = Stages { simplify: start.elapsed().as_secs_f64(), ..Stages::default() };
     let shape = input.shape.unwrap_or(input.polycube);
-    let map = improve_map(&mut simplified, shape, &context.stage("map", 0.3, 0.4))?;
+    let (map, fine) = improve_map(&mut simplified, shape, &context.stage("map", 0.3, 0.4))?;
     stages.map = start.elapsed().as_secs_f64() - stages.simplify;
-    let meshed = mesh(&map, shape, options, &mut stages, &context.stage("mesh", 0.4, 0.9))?;
+    let meshed = mesh(&map, &fine, options, &mut stages, &context.stage("mesh", 0.4, 0.9))?;
     let report = measure(&map, &meshed, shape, options, stages, &context.stage("measure", 0.9, 1.0))?;
     let Meshed { layout, quads, hexes, scaled_jacobian } = meshed;
     let mut result = Remeshed { simplified, layout, quads, hexes, scaled_jacobian, report };
@@ -148,21 +149,24 @@ fn ranks(found: &Simplified) -> Vec<i64> {
     (0..levels.len()).map(rank).collect()
 }
 
-/// Untangles the map; the copy returned has a better map of the surface, too, for meshing.
-fn improve_map(simplified: &mut Simplified, shape: &Mesh, context: &Context) -> Result<Simplified> {
-    let Simplified { input, polycube: Some(mesh), report, .. } = simplified else { return Ok(simplified.clone()) };
+/// Untangles the map. What is returned has a better map of the surface, refined for meshing, and the shape to go with it.
+fn improve_map(simplified: &mut Simplified, shape: &Mesh, context: &Context) -> Result<(Simplified, Mesh)> {
+    let Simplified { input, polycube: Some(mesh), report, .. } = simplified else {
+        return Ok((simplified.clone(), shape.clone()));
+    };
     if !report.flipped.cells.is_empty() {
         untangle::volume(input, mesh, &shape.points, &context.stage("map", 0.0, 0.5))?;
     }
-    let mut points = mesh.points.clone();
-    untangle::surface(input, &mut points, &shape.points, &context.stage("map", 0.5, 1.0))?;
+    let mut refined = Refined::new(input, &mesh.points, &shape.points)?;
+    untangle::surface(&mut refined, &context.stage("map", 0.5, 1.0))?;
     if !mesh.cells.is_volume() {
-        mesh.points.clone_from(&points);
+        mesh.points.iter_mut().zip(&refined.points).for_each(|(to, from)| *to = *from);
     }
     report.rejudge(input, mesh)?;
+    let [polycube, shape] = refined.meshes();
     let mut map = simplified.clone();
-    map.polycube = simplified.polycube.as_ref().map(|m| Mesh { points, cells: m.cells.clone() });
-    Ok(map)
+    (map.input, map.polycube) = (refined.polycube, Some(polycube));
+    Ok((map, shape))
 }
 
 fn mesh(
@@ -173,7 +177,7 @@ fn mesh(
     context: &Context,
 ) -> Result<Meshed> {
     let start = Instant::now();
-    let remesher = Remesher::new(map, shape, &context.stage("mesh", 0.0, 0.05))?.solving_inside();
+    let remesher = Remesher::new(map, shape, &context.stage("mesh", 0.0, 0.05))?;
     let mut quads = remesher.quads(&context.stage("mesh", 0.05, 0.1))?;
     if options.surface_only {
         let points = remesher.surface_points(&context.stage("mesh", 0.1, 1.0))?.points;

@@ -1,9 +1,10 @@
 //! Makes the map between shape and polycube one to one before it is used.
 
+use super::refine::Refined;
 use crate::context::Context;
 use crate::error::Result;
 use crate::mesh::{Cells, Face, Mesh, Point, split_quad};
-use crate::optimise::{Elements, Freedom, Settings, optimise};
+use crate::optimise::{Elements, Freedom, Settings, optimise, tetrahedron_volume};
 use crate::structure::{Label, Polycube, area_vector};
 use nalgebra::Vector3;
 
@@ -42,13 +43,29 @@ fn freedoms(polycube: &Polycube) -> Vec<Freedom> {
     polycube.vertex_levels.iter().map(|levels| Freedom::Axes(levels.map(|l| l.is_some()))).collect()
 }
 
+/// How often triangles are split where they cannot be turned the right way round.
+const SPLITS: usize = 2;
+
 /// Moves the surface vertices of a polycube in their facets and along their edges so that no triangle is turned over
-/// and each looks like that of the shape, as far as that goes. Inner vertices stay. Returns how many are still turned
-/// over.
+/// and each looks like that of the shape, as far as that goes; splits triangles where it does not go otherwise.
+pub(super) fn surface(refined: &mut Refined, context: &Context) -> Result<()> {
+    for round in 0..=SPLITS {
+        let from = round as f64 / (SPLITS + 1) as f64;
+        let bad = relax(refined, &context.stage("map", from, 1.0))?;
+        if bad.is_empty() || round == SPLITS {
+            break;
+        }
+        refined.split_facets_of(&bad)?;
+    }
+    Ok(())
+}
+
+/// One round; returns the triangles that are still turned over.
 ///
 /// Each triangle becomes a tetrahedron by a vertex of its own that floats in a plane above it, so that the
 /// tetrahedron is inverted just where the triangle is.
-pub(super) fn surface(polycube: &Polycube, points: &mut Vec<Point>, shape: &[Point], context: &Context) -> Result<usize> {
+fn relax(refined: &mut Refined, context: &Context) -> Result<Vec<usize>> {
+    let Refined { polycube, points, shape, .. } = refined;
     let lifted = Lifted::new(polycube, points, shape);
     let mut moved: Vec<Point> = points.iter().chain(&lifted.above).copied().collect();
     let rest: Vec<Point> = shape.iter().chain(&lifted.above_shape).copied().collect();
@@ -57,10 +74,12 @@ pub(super) fn surface(polycube: &Polycube, points: &mut Vec<Point>, shape: &[Poi
     freedom.iter_mut().filter(|f| **f == free).for_each(|f| *f = Freedom::Fixed);
     freedom.extend(lifted.labels.iter().map(|l| Freedom::Axes(std::array::from_fn(|a| a == l.axis()))));
     let elements = Elements::tetrahedra_like(&lifted.tetrahedra, &rest)?;
-    let report = optimise(&mut moved, &elements, &freedom, &[], &SURFACE, context)?;
+    optimise(&mut moved, &elements, &freedom, &[], &SURFACE, context)?;
+    let bad = |(_, t): &(usize, &[u32; 4])| tetrahedron_volume(&moved, t) <= 0.0;
+    let bad = lifted.tetrahedra.iter().enumerate().filter(bad).map(|(i, _)| i).collect();
     moved.truncate(points.len());
     *points = moved;
-    Ok(report.inverted_after)
+    Ok(bad)
 }
 
 /// The triangles of a surface as tetrahedra.
