@@ -2,7 +2,7 @@
 
 use super::report::{RemeshReport, Stages, cells_of, measure};
 use super::refine::Refined;
-use super::slide::Slides;
+use super::slide::{Hold, Slides};
 use super::{Hexes, Layout, Quads, Remesher, Size, scale_for, untangle};
 use crate::align::Strategy;
 use crate::context::Context;
@@ -198,6 +198,9 @@ fn mesh(
 }
 
 /// Optimises hexahedra with their surface on that of the shape.
+///
+/// Inverted ones are first untangled with the surface held, then with the edges held, so that surface vertices do not
+/// slide past each other, from where there is no way back.
 fn improve_hexes(
     map: &Simplified,
     hexes: &mut Hexes,
@@ -206,11 +209,25 @@ fn improve_hexes(
     context: &Context,
 ) -> Result<()> {
     let slides = Slides::new(&map.input, shape)?;
-    let freedom = slides.freedoms(&hexes.sites);
     let elements = Elements::boxes_like(cells_of(hexes), &hexes.mesh.points, 3)?;
-    let report = optimise(&mut hexes.mesh.points, &elements, &freedom, &slides.guides(), settings, context)?;
+    let guides = slides.guides();
+    let points = &mut hexes.mesh.points;
+    let first = Settings { untangle_rounds: 8, improve_rounds: 0, polish_rounds: 0, ..settings.clone() };
+    for (hold, part) in [(Hold::Surface, 0.0), (Hold::Edges, 0.2)] {
+        let freedom = slides.freedoms(&hexes.sites, hold);
+        let context = context.stage("untangle", part, part + 0.2);
+        let r = optimise(points, &elements, &freedom, &guides, &first, &context)?;
+        if std::env::var_os("PC_DEBUG").is_some() {
+            eprintln!("{r:?}");
+        }
+        if r.inverted_after == 0 {
+            break;
+        }
+    }
+    let freedom = slides.freedoms(&hexes.sites, Hold::Corners);
+    let r = optimise(points, &elements, &freedom, &guides, settings, &context.stage("optimise", 0.4, 1.0))?;
     if std::env::var_os("PC_DEBUG").is_some() {
-        eprintln!("{report:?}");
+        eprintln!("{r:?}");
     }
     Ok(())
 }

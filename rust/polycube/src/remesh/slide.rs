@@ -6,6 +6,17 @@ use crate::mesh::{Face, Point, split_quad};
 use crate::optimise::{CurveGuide, Freedom, Guide, SurfaceGuide};
 use crate::structure::Polycube;
 
+/// Which surface vertices stay where they are.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub(super) enum Hold {
+    /// Those at corners.
+    Corners,
+    /// Those on edges, too.
+    Edges,
+    /// All.
+    Surface,
+}
+
 /// A guide for every facet and, after those, one for every edge of a polycube.
 pub(super) struct Slides {
     facets: Vec<SurfaceGuide>,
@@ -36,9 +47,11 @@ impl Slides {
     }
 
     /// How vertices on these sites may move.
-    pub(super) fn freedoms(&self, sites: &[Site]) -> Vec<Freedom> {
+    pub(super) fn freedoms(&self, sites: &[Site], hold: Hold) -> Vec<Freedom> {
         let freedom = |site: &Site| match *site {
             Site::Corner(_) => Freedom::Fixed,
+            Site::Edge(_) if hold >= Hold::Edges => Freedom::Fixed,
+            Site::Facet(_) if hold >= Hold::Surface => Freedom::Fixed,
             Site::Edge(e) => Freedom::Guided(self.facets.len() as u32 + e),
             Site::Facet(f) => Freedom::Guided(f),
             Site::Inside => Freedom::Free,

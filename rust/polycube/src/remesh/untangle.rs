@@ -19,16 +19,11 @@ const TETRAHEDRA: Settings = Settings {
     polish_rounds: 0,
 };
 
-/// Untangling, and smoothing of the map by two rounds of improvement.
-const SURFACE: Settings = Settings {
-    theta: 0.1,
-    untangle_rounds: 40,
-    untangle_iterations: 100,
-    improve_rounds: 2,
-    improve_iterations: 50,
-    strength: 0.0,
-    polish_rounds: 0,
-};
+/// Smoothing of a valid map by two rounds of improvement.
+const SMOOTH: Settings = Settings { untangle_rounds: 0, improve_rounds: 2, improve_iterations: 50, ..SURFACE };
+
+/// Untangling of surfaces.
+const SURFACE: Settings = Settings { untangle_rounds: 40, untangle_iterations: 100, strength: 0.0, ..TETRAHEDRA };
 
 /// Turns the tetrahedra of a polycube the right way round, each to look like that of the shape; surface vertices stay on
 /// their facets and edges. Other cells are left as they are. Returns how many are still turned over.
@@ -49,34 +44,67 @@ const SPLITS: usize = 2;
 /// Moves the surface vertices of a polycube in their facets and along their edges so that no triangle is turned over
 /// and each looks like that of the shape, as far as that goes; splits triangles where it does not go otherwise.
 pub(super) fn surface(refined: &mut Refined, context: &Context) -> Result<()> {
+    spread_chains(refined);
     for round in 0..=SPLITS {
-        let from = round as f64 / (SPLITS + 1) as f64;
-        let bad = relax(refined, &context.stage("map", from, 1.0))?;
-        if bad.is_empty() || round == SPLITS {
+        let from = 0.8 * round as f64 / (SPLITS + 1) as f64;
+        let bad = relax(refined, false, &context.stage("map", from, 0.8))?;
+        if bad.is_empty() {
+            relax(refined, true, &context.stage("map", 0.8, 1.0))?;
             break;
         }
-        refined.split_facets_of(&bad)?;
+        if round < SPLITS {
+            refined.split_facets_of(&bad)?;
+        }
     }
     Ok(())
 }
 
-/// One round; returns the triangles that are still turned over.
+/// Segments of an edge no shorter than this part of their mean are well enough spread.
+const LEAST_STEP: f64 = 0.02;
+
+/// Places the vertices of a polycube edge that are out of order or too close by their distances along the edge on the shape.
+fn spread_chains(refined: &mut Refined) {
+    let Refined { polycube, points, shape, .. } = refined;
+    for (edge, chain) in polycube.structure.edges.iter().zip(&polycube.chains) {
+        let steps = chain.windows(2).map(|s| (shape[s[0] as usize] - shape[s[1] as usize]).norm());
+        let length: f64 = steps.clone().sum();
+        let [low, high] = [chain[0], chain[chain.len() - 1]].map(|v| points[v as usize][edge.axis]);
+        let at = |i: usize| points[chain[i] as usize][edge.axis];
+        let least = LEAST_STEP * (high - low) / (chain.len() - 1) as f64;
+        if (1..chain.len()).all(|i| at(i) - at(i - 1) >= least) {
+            continue;
+        }
+        let mut walked = 0.0;
+        for (step, &v) in steps.zip(&chain[1..chain.len() - 1]) {
+            walked += step;
+            points[v as usize][edge.axis] = low + (high - low) * (walked / length).min(1.0);
+        }
+    }
+}
+
+/// One round, in which vertices slide along polycube edges or not; returns the triangles that are still turned over.
 ///
 /// Each triangle becomes a tetrahedron by a vertex of its own that floats in a plane above it, so that the
-/// tetrahedron is inverted just where the triangle is.
-fn relax(refined: &mut Refined, context: &Context) -> Result<Vec<usize>> {
+/// tetrahedron is inverted just where the triangle is. While there are such, edges are held: their vertices would
+/// lose their order.
+fn relax(refined: &mut Refined, sliding: bool, context: &Context) -> Result<Vec<usize>> {
     let Refined { polycube, points, shape, .. } = refined;
     let lifted = Lifted::new(polycube, points, shape);
     let mut moved: Vec<Point> = points.iter().chain(&lifted.above).copied().collect();
     let rest: Vec<Point> = shape.iter().chain(&lifted.above_shape).copied().collect();
     let mut freedom = freedoms(polycube);
-    let free = Freedom::Axes([false; 3]);
-    freedom.iter_mut().filter(|f| **f == free).for_each(|f| *f = Freedom::Fixed);
+    for (freedom, levels) in freedom.iter_mut().zip(&polycube.vertex_levels) {
+        match levels.iter().flatten().count() {
+            1 => {}
+            2 if sliding => {}
+            _ => *freedom = Freedom::Fixed,
+        }
+    }
     freedom.extend(lifted.labels.iter().map(|l| Freedom::Axes(std::array::from_fn(|a| a == l.axis()))));
     let elements = Elements::tetrahedra_like(&lifted.tetrahedra, &rest)?;
-    optimise(&mut moved, &elements, &freedom, &[], &SURFACE, context)?;
+    optimise(&mut moved, &elements, &freedom, &[], if sliding { &SMOOTH } else { &SURFACE }, context)?;
     let bad = |(_, t): &(usize, &[u32; 4])| tetrahedron_volume(&moved, t) <= 0.0;
-    let bad = lifted.tetrahedra.iter().enumerate().filter(bad).map(|(i, _)| i).collect();
+    let bad: Vec<usize> = lifted.tetrahedra.iter().enumerate().filter(bad).map(|(i, _)| i).collect();
     moved.truncate(points.len());
     *points = moved;
     Ok(bad)
