@@ -12,6 +12,7 @@ mod embedding;
 mod grid;
 mod hausdorff;
 mod hexes;
+mod improve;
 mod interior;
 mod keys;
 mod layout;

@@ -1,14 +1,15 @@
 //! The whole way from a polycube and its shape to a block structure, quadrilaterals and hexahedra.
 
+use super::improve::improve;
 use super::report::{RemeshReport, Stages, cells_of, measure};
 use super::refine::Refined;
-use super::slide::{Hold, Slides};
+
 use super::{Hexes, Layout, Quads, Remesher, Size, scale_for, untangle};
 use crate::align::Strategy;
 use crate::context::Context;
 use crate::error::{Error, ErrorKind, Result};
-use crate::mesh::{Mesh, Point};
-use crate::optimise::{Elements, Settings, optimise};
+use crate::mesh::Mesh;
+use crate::optimise::Settings;
 use crate::simplify::{self, Input, Simplified, simplify};
 use std::time::Instant;
 
@@ -85,7 +86,7 @@ pub fn remesh(input: &Input, options: &RemeshOptions, context: &Context) -> Resu
     stages.map = start.elapsed().as_secs_f64() - stages.simplify;
     let meshed = mesh(&map, &fine, options, &mut stages, &context.stage("mesh", 0.4, 0.9))?;
     let report = measure(&map, &meshed, shape, options, stages, &context.stage("measure", 0.9, 1.0))?;
-    let Meshed { layout, quads, hexes, scaled_jacobian } = meshed;
+    let Meshed { layout, quads, hexes, scaled_jacobian, .. } = meshed;
     let mut result = Remeshed { simplified, layout, quads, hexes, scaled_jacobian, report };
     result.report.seconds.total = start.elapsed().as_secs_f64();
     Ok(result)
@@ -97,6 +98,8 @@ pub(super) struct Meshed {
     pub(super) quads: Quads,
     pub(super) hexes: Option<Hexes>,
     pub(super) scaled_jacobian: Vec<f64>,
+    /// Vertices that had to leave their corners and edges.
+    pub(super) released: usize,
 }
 
 /// The simplified polycube at the wanted size.
@@ -183,51 +186,16 @@ fn mesh(
         let points = remesher.surface_points(&context.stage("mesh", 0.1, 1.0))?.points;
         let layout = remesher.layout(&points, 0)?;
         stages.mesh = start.elapsed().as_secs_f64();
-        return Ok(Meshed { layout, quads, hexes: None, scaled_jacobian: Vec::new() });
+        return Ok(Meshed { layout, quads, hexes: None, scaled_jacobian: Vec::new(), released: 0 });
     }
     let mut hexes = remesher.hexes(options.padding, &context.stage("mesh", 0.1, 0.2))?;
     stages.mesh = start.elapsed().as_secs_f64();
-    improve_hexes(map, &mut hexes, &shape.points, &options.optimise, &context.stage("optimise", 0.2, 1.0))?;
+    let released = improve(map, &mut hexes, &shape.points, &options.optimise, &context.stage("optimise", 0.2, 1.0))?;
     stages.optimise = start.elapsed().as_secs_f64() - stages.mesh;
     quads.mesh.points = remesher.surface_of(&hexes.mesh.points, options.padding);
     let layout = remesher.layout(&hexes.mesh.points, options.padding)?;
     let cells = cells_of(&hexes);
     let scaled_jacobian =
         cells.iter().map(|c| crate::optimise::scaled_jacobian(&hexes.mesh.points, c)).collect();
-    Ok(Meshed { layout, quads, hexes: Some(hexes), scaled_jacobian })
-}
-
-/// Optimises hexahedra with their surface on that of the shape.
-///
-/// Inverted ones are first untangled with the surface held, then with the edges held, so that surface vertices do not
-/// slide past each other, from where there is no way back.
-fn improve_hexes(
-    map: &Simplified,
-    hexes: &mut Hexes,
-    shape: &[Point],
-    settings: &Settings,
-    context: &Context,
-) -> Result<()> {
-    let slides = Slides::new(&map.input, shape)?;
-    let elements = Elements::boxes_like(cells_of(hexes), &hexes.mesh.points, 3)?;
-    let guides = slides.guides();
-    let points = &mut hexes.mesh.points;
-    let first = Settings { untangle_rounds: 8, improve_rounds: 0, polish_rounds: 0, ..settings.clone() };
-    for (hold, part) in [(Hold::Surface, 0.0), (Hold::Edges, 0.2)] {
-        let freedom = slides.freedoms(&hexes.sites, hold);
-        let context = context.stage("untangle", part, part + 0.2);
-        let r = optimise(points, &elements, &freedom, &guides, &first, &context)?;
-        if std::env::var_os("PC_DEBUG").is_some() {
-            eprintln!("{r:?}");
-        }
-        if r.inverted_after == 0 {
-            break;
-        }
-    }
-    let freedom = slides.freedoms(&hexes.sites, Hold::Corners);
-    let r = optimise(points, &elements, &freedom, &guides, settings, &context.stage("optimise", 0.4, 1.0))?;
-    if std::env::var_os("PC_DEBUG").is_some() {
-        eprintln!("{r:?}");
-    }
-    Ok(())
+    Ok(Meshed { layout, quads, hexes: Some(hexes), scaled_jacobian, released })
 }

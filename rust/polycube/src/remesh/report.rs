@@ -25,6 +25,8 @@ pub struct RemeshReport {
     pub hex_blocks: usize,
     /// Padding layers.
     pub padding: usize,
+    /// Vertices that left corners and edges of the polycube, where hexahedra were inverted otherwise; they lie on the shape.
+    pub released: usize,
     /// Hexahedra whose scaled Jacobian is not positive.
     pub inverted: usize,
     /// The first thousand of those: number and middle.
@@ -106,6 +108,7 @@ pub(super) fn measure(
         hexes: found.cells,
         hex_blocks: meshed.hexes.as_ref().map_or(Ok(0), count_blocks)?,
         padding: options.padding,
+        released: meshed.released,
         inverted: found.inverted,
         inverted_cells: meshed.hexes.as_ref().map_or_else(Vec::new, |h| inverted(h, &meshed.scaled_jacobian)),
         min_sj: some.then_some(found.min),
@@ -117,6 +120,11 @@ pub(super) fn measure(
         within_hausdorff: distance <= options.max_hausdorff * diagonal,
         seconds,
     };
+    if meshed.released > 0 {
+        let n = meshed.released;
+        let note = format!("{n} vertices left polycube corners and edges for the surface around, so that no hexahedron is inverted");
+        report.simplify.notes.push(note);
+    }
     let faults = report.faults();
     report.simplify.notes.extend(faults);
     report.seconds.measure = start.elapsed().as_secs_f64();

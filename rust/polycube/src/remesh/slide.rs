@@ -17,10 +17,11 @@ pub(super) enum Hold {
     Surface,
 }
 
-/// A guide for every facet and, after those, one for every edge of a polycube.
+/// A guide for every facet and, after those, one for every edge of a polycube, and one for all of the surface.
 pub(super) struct Slides {
     facets: Vec<SurfaceGuide>,
     edges: Vec<CurveGuide>,
+    whole: SurfaceGuide,
 }
 
 impl Slides {
@@ -34,7 +35,9 @@ impl Slides {
             }
         }
         let segments = |chain: &Vec<u32>| -> Vec<[u32; 2]> { chain.windows(2).map(|s| [s[0], s[1]]).collect() };
+        let all: Vec<[u32; 3]> = triangles.concat();
         Ok(Self {
+            whole: SurfaceGuide::new(shape, &all)?,
             facets: triangles.iter().map(|t| SurfaceGuide::new(shape, t)).collect::<Result<_>>()?,
             edges: polycube.chains.iter().map(|c| CurveGuide::new(shape, &segments(c))).collect::<Result<_>>()?,
         })
@@ -43,7 +46,13 @@ impl Slides {
     /// All guides, in the order that [`freedoms`](Self::freedoms) counts them.
     pub(super) fn guides(&self) -> Vec<&dyn Guide> {
         let facets = self.facets.iter().map(|g| g as &dyn Guide);
-        facets.chain(self.edges.iter().map(|g| g as &dyn Guide)).collect()
+        let edges = self.edges.iter().map(|g| g as &dyn Guide);
+        facets.chain(edges).chain([&self.whole as &dyn Guide]).collect()
+    }
+
+    /// A vertex that may slide on all of the surface.
+    pub(super) fn released(&self) -> Freedom {
+        Freedom::Guided((self.facets.len() + self.edges.len()) as u32)
     }
 
     /// How vertices on these sites may move.
