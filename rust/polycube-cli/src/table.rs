@@ -75,13 +75,8 @@ fn remesh_facts(report: &RemeshReport) -> Vec<(&'static str, String)> {
         format!("{} ({:.3} % of the diagonal)", short(report.hausdorff), report.hausdorff_percent),
     ));
     let s = &report.seconds;
-    let stages = [
-        ("simplify", s.simplify),
-        ("map", s.map),
-        ("mesh", s.mesh),
-        ("optimise", s.optimise),
-        ("measure", s.measure),
-    ];
+    let stages =
+        [("simplify", s.simplify), ("map", s.map), ("mesh", s.mesh), ("optimise", s.optimise), ("measure", s.measure)];
     let each: Vec<String> = stages.iter().map(|(name, t)| format!("{name} {t:.2}")).collect();
     facts.push(("seconds", format!("{:.2} ({})", s.total, each.join(", "))));
     facts

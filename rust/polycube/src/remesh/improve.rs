@@ -45,7 +45,8 @@ pub(super) fn improve(
     let mut released = 0;
     let short = Settings { untangle_rounds: 12, ..first };
     for round in 0..RELEASES {
-        if job.run(&freedom, &short, &context.stage("untangle", 0.3, 0.3 + 0.1 * round as f64 / RELEASES as f64))? == 0 {
+        if job.run(&freedom, &short, &context.stage("untangle", 0.3, 0.3 + 0.1 * round as f64 / RELEASES as f64))? == 0
+        {
             break;
         }
         released += job.release(&mut freedom);

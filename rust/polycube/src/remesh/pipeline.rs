@@ -1,8 +1,8 @@
 //! The whole way from a polycube and its shape to a block structure, quadrilaterals and hexahedra.
 
 use super::improve::improve;
-use super::report::{RemeshReport, Stages, cells_of, measure};
 use super::refine::Refined;
+use super::report::{RemeshReport, Stages, cells_of, measure};
 
 use super::{Hexes, Layout, Quads, Remesher, Size, scale_for, untangle};
 use crate::align::Strategy;
@@ -195,7 +195,6 @@ fn mesh(
     quads.mesh.points = remesher.surface_of(&hexes.mesh.points, options.padding);
     let layout = remesher.layout(&hexes.mesh.points, options.padding)?;
     let cells = cells_of(&hexes);
-    let scaled_jacobian =
-        cells.iter().map(|c| crate::optimise::scaled_jacobian(&hexes.mesh.points, c)).collect();
+    let scaled_jacobian = cells.iter().map(|c| crate::optimise::scaled_jacobian(&hexes.mesh.points, c)).collect();
     Ok(Meshed { layout, quads, hexes: Some(hexes), scaled_jacobian, released })
 }

@@ -122,7 +122,9 @@ pub(super) fn measure(
     };
     if meshed.released > 0 {
         let n = meshed.released;
-        let note = format!("{n} vertices left polycube corners and edges for the surface around, so that no hexahedron is inverted");
+        let note = format!(
+            "{n} vertices left polycube corners and edges for the surface around, so that no hexahedron is inverted"
+        );
         report.simplify.notes.push(note);
     }
     let faults = report.faults();
@@ -141,7 +143,10 @@ impl RemeshReport {
     pub fn faults(&self) -> Vec<String> {
         let mut faults = Vec::new();
         if self.inverted > 0 {
-            faults.push(format!("{} hexahedra are inverted: \"inverted_cells\" in the report tells where", self.inverted));
+            faults.push(format!(
+                "{} hexahedra are inverted: \"inverted_cells\" in the report tells where",
+                self.inverted
+            ));
         }
         if !self.within_hausdorff {
             faults.push(format!(

@@ -122,9 +122,8 @@ struct Lifted {
 
 impl Lifted {
     fn new(polycube: &Polycube, points: &[Point], shape: &[Point]) -> Self {
-        let area = |points: &[Point]| -> f64 {
-            polycube.surface.faces().iter().map(|f| area_vector(points, f).norm()).sum()
-        };
+        let area =
+            |points: &[Point]| -> f64 { polycube.surface.faces().iter().map(|f| area_vector(points, f).norm()).sum() };
         let stretch = (area(points) / area(shape)).sqrt();
         let mut lifted = Self { tetrahedra: vec![], labels: vec![], above: vec![], above_shape: vec![] };
         for (face, label) in polycube.surface.faces().iter().zip(polycube.labels()) {
