@@ -1,6 +1,6 @@
 //! The command line: subcommands and what they have in common.
 
-use crate::{completions, demo, inspect, simplify, validate, view};
+use crate::{completions, demo, inspect, remesh, simplify, validate, view};
 use clap::{Args, Parser, Subcommand, ValueHint};
 use polycube::structure::Tolerance;
 use std::path::PathBuf;
@@ -12,6 +12,8 @@ Exit codes:
   2    wrong usage: an unknown option, or a value out of its range
   3    not a valid polycube: violations found, shape and polycube do not match,
        or `--strategy naive` broke it
+  4    `remesh`: the meshes are written, but hexahedra are inverted, or the surface is farther
+       from the shape than `--max-hausdorff` allows
   130  cancelled with Ctrl-C; no file is left half written
 
 Mesh files: .obj .off .ply .stl (surfaces), .mesh .vtk .vtu (surfaces, tetrahedra, hexahedra).
@@ -32,6 +34,8 @@ pub struct Cli {
 pub enum Command {
     /// Simplify a polycube and write the result with a report
     Simplify(simplify::Args),
+    /// Simplify a polycube and mesh its shape with the blocks found: coarse layout, quadrilaterals, hexahedra
+    Remesh(Box<remesh::Args>),
     /// Show the structure found in a polycube: charts, corners, edges, levels, block counts
     Inspect(inspect::Args),
     /// List everything that keeps a mesh from being a valid polycube, where it is and how to mend it
@@ -92,6 +96,12 @@ fn degrees(text: &str) -> Result<f64, String> {
 /// A number from 0 to 1.
 pub fn fraction(text: &str) -> Result<f64, String> {
     within(text, 0.0..=1.0)
+}
+
+/// A number above 0, up to 100.
+pub fn percent(text: &str) -> Result<f64, String> {
+    let found = positive(text).ok().filter(|x| *x <= 100.0);
+    found.ok_or_else(|| "expected a number above 0, up to 100".to_owned())
 }
 
 fn within(text: &str, range: std::ops::RangeInclusive<f64>) -> Result<f64, String> {

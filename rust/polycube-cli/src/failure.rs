@@ -12,6 +12,8 @@ pub const FAILURE: u8 = 1;
 pub const USAGE: u8 = 2;
 /// Exit code for something that is not a valid polycube.
 pub const INVALID: u8 = 3;
+/// Exit code for meshes that are not as good as asked for.
+pub const INFERIOR: u8 = 4;
 /// Exit code of a run that was cancelled.
 pub const CANCELLED: u8 = 130;
 

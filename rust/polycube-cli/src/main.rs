@@ -8,6 +8,7 @@ mod inspect;
 mod mesh_files;
 mod output;
 mod progress;
+mod remesh;
 mod report;
 mod simplify;
 mod table;
@@ -27,6 +28,7 @@ fn main() -> ExitCode {
     };
     let done = match cli.command {
         Command::Simplify(args) => simplify::run(&args),
+        Command::Remesh(args) => remesh::run(&args),
         Command::Inspect(args) => inspect::run(&args),
         Command::Validate(args) => validate::run(&args),
         Command::Demo(args) => demo::run(&args),

@@ -2,6 +2,7 @@
 
 use polycube::align::{Effort, SolverKind};
 use polycube::layout::Objective;
+use polycube::remesh::{RemeshOptions, RemeshReport, Size};
 use polycube::simplify::{Options, Report, Simplified};
 use polycube::structure::{Arrangement, Edge, Facet, Tolerance};
 use serde::Serialize;
@@ -31,6 +32,37 @@ pub struct RunReport<'a> {
     pub report: &'a Report,
     /// Where a naive rounding broke the polycube.
     pub broken: &'a [Broken],
+}
+
+/// `report.json` of `remesh`.
+#[derive(Debug, Serialize)]
+pub struct RemeshRun<'a> {
+    /// What was read.
+    pub input: &'a Files,
+    /// How it was done; the scale and the strategy are below.
+    pub options: RemeshOptionsUsed,
+    /// The name of the polycube in the output folder.
+    pub output: &'a str,
+    /// What was done and how good it is.
+    #[serde(flatten)]
+    pub report: &'a RemeshReport,
+}
+
+/// The options that the library's report of a remeshing does not repeat.
+#[derive(Clone, Copy, Debug, Serialize)]
+pub struct RemeshOptionsUsed {
+    #[serde(flatten)]
+    simplify: OptionsUsed,
+    size: Option<Size>,
+    surface_only: bool,
+    max_hausdorff: f64,
+}
+
+impl From<&RemeshOptions> for RemeshOptionsUsed {
+    fn from(options: &RemeshOptions) -> Self {
+        let RemeshOptions { simplify, size, surface_only, max_hausdorff, .. } = *options;
+        Self { simplify: simplify.into(), size, surface_only, max_hausdorff }
+    }
 }
 
 /// The options that the library's report does not repeat.

@@ -29,7 +29,7 @@ not valid, the two reports say what broke, there is no polycube, and the exit co
 `polycube --help` lists the exit codes.";
 
 /// The name of the label file written.
-const LABELS: &str = "polycube.labels";
+pub const LABELS: &str = "polycube.labels";
 
 /// What to simplify and how.
 #[derive(clap::Args, Clone, Debug)]
@@ -102,7 +102,8 @@ pub struct Args {
     pub quiet: bool,
 }
 
-fn format(text: &str) -> std::result::Result<Format, String> {
+/// A mesh file format by its extension.
+pub fn format(text: &str) -> std::result::Result<Format, String> {
     text.parse().map_err(|e: Error| e.to_string())
 }
 

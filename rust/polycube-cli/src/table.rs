@@ -3,6 +3,7 @@
 use comfy_table::presets::UTF8_NO_BORDERS;
 use comfy_table::{CellAlignment, LineStyle, Table};
 use polycube::layout::Counts;
+use polycube::remesh::RemeshReport;
 use polycube::simplify::Report;
 
 /// A table under `header`; every column but the first is aligned to the right.
@@ -40,6 +41,45 @@ pub fn summary(report: &Report) -> String {
         text += &format!("note: {note}\n");
     }
     text
+}
+
+/// What a remeshing did.
+pub fn remesh_summary(report: &RemeshReport) -> String {
+    let simplified = &report.simplify;
+    let mut text = match &simplified.after {
+        Some(after) => gains(&simplified.before, after),
+        None => String::new(),
+    };
+    text.push('\n');
+    for (name, value) in remesh_facts(report) {
+        text += &format!("{name:21}{value}\n");
+    }
+    for note in &simplified.notes {
+        text += &format!("note: {note}\n");
+    }
+    text
+}
+
+fn remesh_facts(report: &RemeshReport) -> Vec<(&'static str, String)> {
+    let mut facts = vec![
+        ("lattice", format!("{} steps per unit of the polycube", short(report.simplify.scale))),
+        ("quadrilaterals", report.quads.to_string()),
+    ];
+    if let (Some(min), Some(average)) = (report.min_sj, report.avg_sj) {
+        facts.push(("hexahedra", format!("{} in {} blocks", report.hexes, report.hex_blocks)));
+        facts.push(("inverted", report.inverted.to_string()));
+        facts.push(("scaled Jacobian", format!("at least {min:.3}, {average:.3} on average")));
+    }
+    facts.push((
+        "Hausdorff distance",
+        format!("{} ({:.3} % of the diagonal)", short(report.hausdorff), report.hausdorff_percent),
+    ));
+    let s = &report.seconds;
+    let stages =
+        [("simplify", s.simplify), ("map", s.map), ("mesh", s.mesh), ("optimise", s.optimise), ("measure", s.measure)];
+    let each: Vec<String> = stages.iter().map(|(name, t)| format!("{name} {t:.2}")).collect();
+    facts.push(("seconds", format!("{:.2} ({})", s.total, each.join(", "))));
+    facts
 }
 
 fn gains(before: &Counts, after: &Counts) -> String {

@@ -94,6 +94,27 @@ pub struct Report {
     pub notes: Vec<String>,
 }
 
+impl Report {
+    /// Lists the flipped elements anew, after `mesh` was untangled.
+    pub(crate) fn rejudge(&mut self, polycube: &Polycube, mesh: &Mesh) -> Result<()> {
+        self.notes.retain(|note| !note.ends_with(FLIPPED_NOTE));
+        self.list_flipped(polycube, mesh)
+    }
+
+    fn list_flipped(&mut self, polycube: &Polycube, mesh: &Mesh) -> Result<()> {
+        let labels: Vec<i8> = polycube.labels().map(|l| l.index() as i8).collect();
+        self.flipped = flipped(mesh, &labels)?;
+        self.flipped_elements = self.flipped.cells.len() + self.flipped.faces.len();
+        if self.flipped_elements > 0 {
+            self.notes.push(format!("{}{FLIPPED_NOTE}", self.flipped_elements));
+        }
+        Ok(())
+    }
+}
+
+/// What the note about flipped elements says after their number.
+const FLIPPED_NOTE: &str = " elements of the morphed mesh are turned over or flat";
+
 /// Time spent in each stage, in seconds.
 #[derive(Clone, Copy, Debug, Default, PartialEq, serde::Serialize)]
 pub struct Seconds {
@@ -312,14 +333,7 @@ fn max_displacement(polycube: &Polycube, levels: &[i64], scale: f64) -> f64 {
 
 /// Counts what the morph turned over and measures the map before and after.
 fn judge(report: &mut Report, input: &Input, polycube: &Polycube, mesh: &Mesh) -> Result<()> {
-    let labels: Vec<i8> = polycube.labels().map(|l| l.index() as i8).collect();
-    report.flipped = flipped(mesh, &labels)?;
-    report.flipped_elements = report.flipped.cells.len() + report.flipped.faces.len();
     let from = input.shape.unwrap_or(input.polycube);
     report.distortion = Some([distortion(from, input.polycube)?, distortion(from, mesh)?]);
-    if report.flipped_elements > 0 {
-        let n = report.flipped_elements;
-        report.notes.push(format!("{n} elements of the morphed mesh are turned over or flat"));
-    }
-    Ok(())
+    report.list_flipped(polycube, mesh)
 }

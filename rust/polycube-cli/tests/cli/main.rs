@@ -6,6 +6,7 @@ mod failures;
 mod inspect;
 mod interrupt;
 mod real;
+mod remesh;
 mod simplify;
 mod validate;
 mod view;

@@ -1,6 +1,6 @@
 //! From a simplified polycube to coarse layouts, quadrilateral and hexahedral meshes (paper, section 7).
 //!
-//! A [`Remesher`] holds the lattice inside the polycube and the map from there to the shape. From it come the
+//! [`remesh`] is the way in; it does all of the following. A [`Remesher`] holds the lattice inside the polycube and the map from there to the shape. From it come the
 //! [`layout`](Remesher::layout) (one cell per block and per patch), [`quads`](Remesher::quads) and
 //! [`hexes`](Remesher::hexes). [`scale_for`] finds the scale of the lattice for a wanted size, [`hausdorff`] measures how
 //! far a mesh is from the shape, and [`base_complex`] finds the blocks of any hexahedral mesh.
@@ -12,15 +12,21 @@ mod embedding;
 mod grid;
 mod hausdorff;
 mod hexes;
+mod improve;
 mod interior;
 mod keys;
 mod layout;
 mod locate;
 mod padding;
+mod pipeline;
 mod quads;
+mod refine;
+mod report;
 mod site;
 mod size;
+mod slide;
 mod surface_map;
+mod untangle;
 mod volume_map;
 
 #[cfg(test)]
@@ -30,7 +36,9 @@ pub use base_complex::base_complex;
 pub use hausdorff::hausdorff;
 pub use hexes::{Hexes, MAX_PADDING};
 pub use layout::{Layout, SingularEdge};
+pub use pipeline::{RemeshOptions, Remeshed, remesh};
 pub use quads::Quads;
+pub use report::{InvertedCell, MOST_LISTED, RemeshReport, Stages};
 pub use site::Site;
 pub use size::{Size, count_hexes, scale_for};
 

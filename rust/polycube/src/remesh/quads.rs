@@ -68,6 +68,17 @@ impl Remesher<'_> {
         })
     }
 
+    /// The vertices of [`quads`](Self::quads) among `points`, which has the vertices of [`hexes`](Self::hexes) with this
+    /// `padding`.
+    pub(super) fn surface_of(&self, points: &[Point], padding: usize) -> Vec<Point> {
+        let ring = self.grid.surface_vertices();
+        match padding {
+            0 => ring.iter().map(|&v| points[v as usize]).collect(),
+            // The outermost layer comes last.
+            _ => points[points.len() - ring.len()..].to_vec(),
+        }
+    }
+
     /// The lattice's vertices with those on the surface put on the shape.
     pub(super) fn surface_points(&self, context: &Context) -> Result<Embedding> {
         let grid = &self.grid;

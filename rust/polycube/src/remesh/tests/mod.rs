@@ -2,6 +2,7 @@
 
 mod counts;
 mod on_real_data;
+mod pipeline;
 mod surface;
 
 use super::{Hexes, Remesher};

@@ -10,7 +10,7 @@ use std::path::PathBuf;
 use std::time::Instant;
 
 /// Names and files of the pairs: as tetrahedra where there are some, else as surfaces.
-fn pairs() -> Vec<(String, &'static str)> {
+pub(super) fn pairs() -> Vec<(String, &'static str)> {
     let Ok(entries) = std::fs::read_dir(folder()) else {
         let required = std::env::var("POLYCUBE_REQUIRE_DATA").is_ok_and(|v| v == "1");
         assert!(!required, "no data in {}", folder().display());
@@ -26,7 +26,7 @@ fn pairs() -> Vec<(String, &'static str)> {
     pairs
 }
 
-fn folder() -> PathBuf {
+pub(super) fn folder() -> PathBuf {
     let beside = PathBuf::from(env!("CARGO_MANIFEST_DIR")).join("../../../shared/data");
     std::env::var_os("POLYCUBE_DATA").map_or(beside, PathBuf::from)
 }
@@ -37,7 +37,7 @@ fn load(name: &str, extension: &str, options: &Options) -> Case {
 }
 
 /// The published number of hexahedra.
-fn published(name: &str) -> usize {
+pub(super) fn published(name: &str) -> usize {
     let text = std::fs::read_to_string(folder().join("reference.json")).unwrap();
     let all: serde_json::Value = serde_json::from_str(&text).unwrap();
     let own = &all[name];

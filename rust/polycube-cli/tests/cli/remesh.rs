@@ -1,0 +1,70 @@
+//! `polycube remesh`.
+
+use super::Sandbox;
+use polycube::generate::{Example, example};
+use polycube::mesh::{self, CellKind, Cells};
+use polycube::optimise::cell_qualities;
+
+/// A sandbox with a pair named `shape.EXT` and `cube.EXT`.
+fn sandbox(kind: CellKind, extension: &str) -> Sandbox {
+    let sandbox = Sandbox::new();
+    let (polycube, shape) = example(Example::SteppedL, 1, kind).unwrap();
+    sandbox.write_mesh(&format!("cube.{extension}"), &polycube);
+    sandbox.write_mesh(&format!("shape.{extension}"), &shape);
+    sandbox
+}
+
+const FILES: [&str; 8] = [
+    "hexes.mesh",
+    "hexes.vtu",
+    "layout.obj",
+    "layout.vtk",
+    "polycube.labels",
+    "polycube.mesh",
+    "quads.obj",
+    "report.json",
+];
+
+#[test]
+fn all_files_are_there_and_read_back() {
+    let sandbox = sandbox(CellKind::Tetrahedra, "mesh");
+    let out = sandbox.ok("remesh shape.mesh --polycube cube.mesh -o out --hexes 2000 --max-hausdorff 5");
+    assert!(out.contains("hexahedra") && out.contains("scaled Jacobian"), "{out}");
+    assert_eq!(sandbox.names("out"), FILES);
+    let report = sandbox.json("out/report.json");
+    assert_eq!((&report["inverted"], &report["inverted_cells"]), (&0.into(), &serde_json::json!([])));
+    assert_eq!(report["hex_blocks"], report["after"]["blocks_padded"]);
+    for (file, cells) in [("hexes.mesh", "hexes"), ("hexes.vtu", "hexes"), ("layout.vtk", "hex_blocks")] {
+        let mesh = mesh::read(&sandbox.path(&format!("out/{file}"))).unwrap();
+        assert_eq!(report[cells].as_u64().unwrap() as usize, mesh.cells.len(), "{file}");
+        assert!(cell_qualities(&mesh).unwrap().iter().all(|q| q.1 > 0.0), "{file}");
+    }
+    let quads = mesh::read(&sandbox.path("out/quads.obj")).unwrap();
+    assert!(matches!(quads.cells, Cells::Quads(_)));
+    assert_eq!(report["quads"].as_u64().unwrap() as usize, quads.cells.len());
+    let text = String::from_utf8_lossy(&sandbox.read("out/hexes.vtu")).into_owned();
+    assert!(["scaled_jacobian", "block_id", "label"].iter().all(|f| text.contains(&format!("\"{f}\""))));
+}
+
+#[test]
+fn a_surface_alone_has_no_hexahedra() {
+    let sandbox = sandbox(CellKind::Triangles, "obj");
+    let line = "remesh shape.obj --polycube cube.obj -o out --surface-only --quiet --max-hausdorff 5 --format ply";
+    assert_eq!(sandbox.ok(line), "");
+    let expected = ["layout.obj", "polycube.labels", "polycube.obj", "quads.obj", "quads.ply", "report.json"];
+    assert_eq!(sandbox.names("out"), expected);
+    assert_eq!(sandbox.json("out/report.json")["hexes"], 0);
+}
+
+#[test]
+fn a_surface_too_far_away_is_written_with_exit_code_4() {
+    let sandbox = sandbox(CellKind::Triangles, "obj");
+    let line = "remesh shape.obj --polycube cube.obj -o out --hexes 400 --max-hausdorff 0.0001";
+    sandbox.fails(line, 4, &["Hausdorff"]);
+    assert_eq!(sandbox.names("out").len(), 8);
+    assert_eq!(sandbox.json("out/report.json")["within_hausdorff"], false);
+    sandbox.fails("remesh shape.obj --polycube cube.obj -o no --hexes 0", 2, &["--hexes"]);
+    sandbox.fails("remesh shape.obj --polycube cube.obj -o no --hexes 9 --scale 1", 2, &["cannot be used"]);
+    sandbox.fails("remesh shape.obj --polycube cube.obj -o no --format stl", 2, &["stl"]);
+    assert!(!sandbox.path("no").exists());
+}

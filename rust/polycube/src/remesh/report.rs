@@ -1,0 +1,186 @@
+//! What a remeshing did and how good its meshes are.
+
+use super::pipeline::{Meshed, RemeshOptions};
+use super::{Hexes, base_complex, hausdorff};
+use crate::context::Context;
+use crate::error::Result;
+use crate::mesh::{Cells, Mesh};
+use crate::optimise::{BARS, cell_qualities, statistics};
+use crate::simplify::{self, Simplified};
+
+/// How many inverted hexahedra are named one by one.
+pub const MOST_LISTED: usize = 1000;
+
+/// What was done, for people and programs: what [`simplify::Report`] says and how good the meshes are.
+#[derive(Clone, Debug, PartialEq, serde::Serialize)]
+pub struct RemeshReport {
+    /// What the simplification did; its time is part of [`seconds`](Self::seconds).
+    #[serde(flatten)]
+    pub simplify: simplify::Report,
+    /// Number of quadrilaterals.
+    pub quads: usize,
+    /// Number of hexahedra; 0 for a surface alone.
+    pub hexes: usize,
+    /// Blocks of the base complex of the hexahedra, counted on the finished mesh.
+    pub hex_blocks: usize,
+    /// Padding layers.
+    pub padding: usize,
+    /// Vertices that left corners and edges of the polycube, where hexahedra were inverted otherwise; they lie on the shape.
+    pub released: usize,
+    /// Hexahedra whose scaled Jacobian is not positive.
+    pub inverted: usize,
+    /// The first thousand of those: number and middle.
+    pub inverted_cells: Vec<InvertedCell>,
+    /// Smallest scaled Jacobian; nothing without hexahedra.
+    pub min_sj: Option<f64>,
+    /// Mean scaled Jacobian; nothing without hexahedra.
+    pub avg_sj: Option<f64>,
+    /// Hexahedra by scaled Jacobian, see [`Statistics`](crate::optimise::Statistics).
+    pub histogram: [u32; BARS],
+    /// Volume of the hexahedra, in cubed units of the shape.
+    pub volume: f64,
+    /// Hausdorff distance between the quadrilaterals and the shape, in units of the shape.
+    pub hausdorff: f64,
+    /// The same in percent of the diagonal of the shape's bounding box.
+    pub hausdorff_percent: f64,
+    /// Whether that is within the bound asked for.
+    pub within_hausdorff: bool,
+    /// Time spent in each stage, in seconds.
+    #[serde(rename = "remesh_seconds")]
+    pub seconds: Stages,
+}
+
+/// A hexahedron that is not the right way round.
+#[derive(Clone, Copy, Debug, PartialEq, serde::Serialize)]
+pub struct InvertedCell {
+    /// Its number, from 0.
+    pub cell: usize,
+    /// Its scaled Jacobian.
+    pub scaled_jacobian: f64,
+    /// The mean of its vertices.
+    pub at: [f64; 3],
+}
+
+/// Time spent in each stage, in seconds.
+#[derive(Clone, Copy, Debug, Default, PartialEq, serde::Serialize)]
+pub struct Stages {
+    /// Simplifying, and placing the levels at the wanted size.
+    pub simplify: f64,
+    /// Untangling the map.
+    pub map: f64,
+    /// Meshing.
+    pub mesh: f64,
+    /// Optimising the hexahedra.
+    pub optimise: f64,
+    /// Measuring the result.
+    pub measure: f64,
+    /// All of it, without files.
+    pub total: f64,
+}
+
+/// The hexahedra of a mesh.
+pub(super) fn cells_of(hexes: &Hexes) -> &[[u32; 8]] {
+    match &hexes.mesh.cells {
+        Cells::Hexahedra(cells) => cells,
+        _ => &[],
+    }
+}
+
+/// Judges the meshes.
+pub(super) fn measure(
+    map: &Simplified,
+    meshed: &Meshed,
+    shape: &Mesh,
+    options: &RemeshOptions,
+    seconds: Stages,
+    context: &Context,
+) -> Result<RemeshReport> {
+    let start = std::time::Instant::now();
+    let distance = hausdorff(&meshed.quads.mesh, shape, context)?;
+    let diagonal = diagonal(shape);
+    let none = Vec::new();
+    let qualities = meshed.hexes.as_ref().map_or(Ok(none), |h| cell_qualities(&h.mesh))?;
+    let found = statistics(&qualities);
+    let some = meshed.hexes.is_some();
+    let mut report = RemeshReport {
+        simplify: map.report.clone(),
+        quads: meshed.quads.mesh.cells.len(),
+        hexes: found.cells,
+        hex_blocks: meshed.hexes.as_ref().map_or(Ok(0), count_blocks)?,
+        padding: options.padding,
+        released: meshed.released,
+        inverted: found.inverted,
+        inverted_cells: meshed.hexes.as_ref().map_or_else(Vec::new, |h| inverted(h, &meshed.scaled_jacobian)),
+        min_sj: some.then_some(found.min),
+        avg_sj: some.then_some(found.average),
+        histogram: found.histogram,
+        volume: if some { found.volume } else { 0.0 },
+        hausdorff: distance,
+        hausdorff_percent: 100.0 * distance / diagonal,
+        within_hausdorff: distance <= options.max_hausdorff * diagonal,
+        seconds,
+    };
+    if meshed.released > 0 {
+        let n = meshed.released;
+        let note = format!(
+            "{n} vertices left polycube corners and edges for the surface around, so that no hexahedron is inverted"
+        );
+        report.simplify.notes.push(note);
+    }
+    let faults = report.faults();
+    report.simplify.notes.extend(faults);
+    report.seconds.measure = start.elapsed().as_secs_f64();
+    Ok(report)
+}
+
+impl RemeshReport {
+    /// Whether no hexahedron is inverted and the surface is as near to the shape as asked for.
+    pub fn is_good(&self) -> bool {
+        self.inverted == 0 && self.within_hausdorff
+    }
+
+    /// What is not as good as asked for, in plain words.
+    pub fn faults(&self) -> Vec<String> {
+        let mut faults = Vec::new();
+        if self.inverted > 0 {
+            faults.push(format!(
+                "{} hexahedra are inverted: \"inverted_cells\" in the report tells where",
+                self.inverted
+            ));
+        }
+        if !self.within_hausdorff {
+            faults.push(format!(
+                "the Hausdorff distance is {:.3} % of the diagonal, more than asked for: a finer mesh is nearer",
+                self.hausdorff_percent
+            ));
+        }
+        faults
+    }
+}
+
+fn count_blocks(hexes: &Hexes) -> Result<usize> {
+    Ok(base_complex(cells_of(hexes))?.into_iter().max().map_or(0, |b| b as usize + 1))
+}
+
+fn inverted(hexes: &Hexes, scaled_jacobian: &[f64]) -> Vec<InvertedCell> {
+    let bad = scaled_jacobian.iter().enumerate().filter(|(_, q)| q.is_nan() || **q <= 0.0);
+    let describe = |(cell, &scaled_jacobian): (usize, &f64)| {
+        let vertices = hexes.mesh.cells.cell(cell);
+        let sum: nalgebra::Vector3<f64> = vertices.iter().map(|&v| hexes.mesh.points[v as usize].coords).sum();
+        InvertedCell { cell, scaled_jacobian, at: (sum / vertices.len() as f64).into() }
+    };
+    bad.take(MOST_LISTED).map(describe).collect()
+}
+
+/// The diagonal of the bounding box of the points that cells use.
+fn diagonal(mesh: &Mesh) -> f64 {
+    let mut low = [f64::INFINITY; 3];
+    let mut high = [f64::NEG_INFINITY; 3];
+    for v in (0..mesh.cells.len()).flat_map(|i| mesh.cells.cell(i)) {
+        for a in 0..3 {
+            let x = mesh.points[*v as usize][a];
+            (low[a], high[a]) = (low[a].min(x), high[a].max(x));
+        }
+    }
+    (0..3).map(|a| (high[a] - low[a]).powi(2)).sum::<f64>().sqrt()
+}

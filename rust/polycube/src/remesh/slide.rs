@@ -1,0 +1,70 @@
+//! What the surface vertices of a mesh slide on: the images of facets and edges on the shape.
+
+use super::site::Site;
+use crate::error::Result;
+use crate::mesh::{Face, Point, split_quad};
+use crate::optimise::{CurveGuide, Freedom, Guide, SurfaceGuide};
+use crate::structure::Polycube;
+
+/// Which surface vertices stay where they are.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub(super) enum Hold {
+    /// Those at corners.
+    Corners,
+    /// Those on edges, too.
+    Edges,
+    /// All.
+    Surface,
+}
+
+/// A guide for every facet and, after those, one for every edge of a polycube, and one for all of the surface.
+pub(super) struct Slides {
+    facets: Vec<SurfaceGuide>,
+    edges: Vec<CurveGuide>,
+    whole: SurfaceGuide,
+}
+
+impl Slides {
+    /// Indexes the facets' triangles and the edges' segments on the shape. O(n log n).
+    pub(super) fn new(polycube: &Polycube, shape: &[Point]) -> Result<Self> {
+        let mut triangles = vec![Vec::new(); polycube.structure.facets.len()];
+        for (face, &facet) in polycube.surface.faces().iter().zip(&polycube.facet_of_face) {
+            match *face {
+                Face::Triangle(t) => triangles[facet as usize].push(t),
+                Face::Quad(q) => triangles[facet as usize].extend(split_quad(q)),
+            }
+        }
+        let segments = |chain: &Vec<u32>| -> Vec<[u32; 2]> { chain.windows(2).map(|s| [s[0], s[1]]).collect() };
+        let all: Vec<[u32; 3]> = triangles.concat();
+        Ok(Self {
+            whole: SurfaceGuide::new(shape, &all)?,
+            facets: triangles.iter().map(|t| SurfaceGuide::new(shape, t)).collect::<Result<_>>()?,
+            edges: polycube.chains.iter().map(|c| CurveGuide::new(shape, &segments(c))).collect::<Result<_>>()?,
+        })
+    }
+
+    /// All guides, in the order that [`freedoms`](Self::freedoms) counts them.
+    pub(super) fn guides(&self) -> Vec<&dyn Guide> {
+        let facets = self.facets.iter().map(|g| g as &dyn Guide);
+        let edges = self.edges.iter().map(|g| g as &dyn Guide);
+        facets.chain(edges).chain([&self.whole as &dyn Guide]).collect()
+    }
+
+    /// A vertex that may slide on all of the surface.
+    pub(super) fn released(&self) -> Freedom {
+        Freedom::Guided((self.facets.len() + self.edges.len()) as u32)
+    }
+
+    /// How vertices on these sites may move.
+    pub(super) fn freedoms(&self, sites: &[Site], hold: Hold) -> Vec<Freedom> {
+        let freedom = |site: &Site| match *site {
+            Site::Corner(_) => Freedom::Fixed,
+            Site::Edge(_) if hold >= Hold::Edges => Freedom::Fixed,
+            Site::Facet(_) if hold >= Hold::Surface => Freedom::Fixed,
+            Site::Edge(e) => Freedom::Guided(self.facets.len() as u32 + e),
+            Site::Facet(f) => Freedom::Guided(f),
+            Site::Inside => Freedom::Free,
+        };
+        sites.iter().map(freedom).collect()
+    }
+}

@@ -1,0 +1,87 @@
+//! The whole way, on generated pairs and on real ones.
+
+use super::{cells, distinct, quality};
+use crate::align::Strategy;
+use crate::context::Context;
+use crate::error::ErrorKind;
+use crate::generate::{Example, example};
+use crate::mesh::{CellKind, Mesh};
+use crate::remesh::{RemeshOptions, Remeshed, Size, base_complex, hausdorff, remesh};
+use crate::simplify::{Input, Options};
+
+fn options(strategy: Strategy, hexes: usize) -> RemeshOptions {
+    let simplify = Options { strategy, ..Options::default() };
+    RemeshOptions { simplify, size: Some(Size::Hexes(hexes)), max_hausdorff: 0.05, ..RemeshOptions::default() }
+}
+
+fn run((polycube, shape): &(Mesh, Mesh), options: &RemeshOptions) -> Remeshed {
+    let input = Input { polycube, shape: Some(shape), labels: None };
+    remesh(&input, options, &Context::default()).unwrap()
+}
+
+/// No inverted hexahedron by the tests' own measure, the blocks that the report says, a surface close to the shape.
+fn check(name: &str, result: &Remeshed, shape: &Mesh) {
+    let hexes = result.hexes.as_ref().unwrap();
+    let (inverted, worst, mean) = quality(hexes);
+    let report = &result.report;
+    assert_eq!((inverted, report.inverted), (0, 0), "{name}: {:?}", report.inverted_cells);
+    assert!((worst - report.min_sj.unwrap()).abs() < 1e-9 && (mean - report.avg_sj.unwrap()).abs() < 1e-9, "{name}");
+    let blocks = distinct(&base_complex(cells(&hexes.mesh)).unwrap());
+    assert_eq!(blocks, report.simplify.after.unwrap().blocks_padded, "{name}");
+    assert_eq!((blocks, result.layout.blocks.cells.len()), (report.hex_blocks, blocks), "{name}");
+    let distance = hausdorff(&result.quads.mesh, shape, &Context::default()).unwrap();
+    assert_eq!(distance, report.hausdorff, "{name}");
+    assert!(report.within_hausdorff && report.is_good(), "{name}: {} %", report.hausdorff_percent);
+}
+
+#[test]
+fn examples_of_all_kinds_become_good_hexahedra() {
+    for (i, name) in Example::ALL.into_iter().enumerate() {
+        let kind = CellKind::ALL[i % 4];
+        let pair = example(name, i as u64 + 1, kind).unwrap();
+        let result = run(&pair, &options(Strategy::Paper, 3000));
+        check(&format!("{name} {kind}"), &result, &pair.1);
+    }
+}
+
+#[test]
+fn the_unsimplified_polycube_is_meshed_even_where_rounding_breaks_it() {
+    let pair = example(Example::SteppedL, 1, CellKind::Triangles).unwrap();
+    let coarse = RemeshOptions { size: Some(Size::Scale(0.05)), ..options(Strategy::Naive, 0) };
+    let result = run(&pair, &RemeshOptions { surface_only: true, ..coarse });
+    assert!(result.hexes.is_none() && result.report.min_sj.is_none() && result.report.quads > 0);
+    assert!(result.report.simplify.notes.iter().any(|n| n.contains("in the order they have")));
+    assert_eq!(result.report.simplify.after, Some(result.report.simplify.before));
+    assert_eq!(result.report.simplify.strategy, Strategy::Naive);
+}
+
+#[test]
+fn wrong_options_and_cancelling_are_errors() {
+    let (polycube, shape) = example(Example::Ring, 1, CellKind::Triangles).unwrap();
+    let input = Input { polycube: &polycube, shape: Some(&shape), labels: None };
+    let bad = RemeshOptions { max_hausdorff: 0.0, ..RemeshOptions::default() };
+    assert_eq!(remesh(&input, &bad, &Context::default()).unwrap_err().kind, ErrorKind::Option);
+    let context = Context::default();
+    context.cancel();
+    assert_eq!(remesh(&input, &options(Strategy::Paper, 500), &context).unwrap_err().kind, ErrorKind::Cancelled);
+}
+
+#[test]
+fn small_real_pairs_have_no_inverted_hexahedron() {
+    for (name, extension) in super::on_real_data::pairs() {
+        let small = ["kitty", "fertility", "block"].iter().any(|n| name.contains(n));
+        if !small || extension != "obj" {
+            continue;
+        }
+        let file = |part: &str| super::on_real_data::folder().join(format!("{name}.{part}.{extension}"));
+        let pair = crate::mesh::read_pair(&file("polycube"), &file("shape")).unwrap();
+        let wanted = super::on_real_data::published(&name);
+        let result = run(&pair, &options(Strategy::Best, wanted));
+        check(&name, &result, &pair.1);
+        if name.contains("block") {
+            let off = (result.report.hexes as f64 / wanted as f64 - 1.0).abs();
+            let (min, average) = (result.report.min_sj.unwrap(), result.report.avg_sj.unwrap());
+            assert!(off < 0.25 && min > 0.179 && average > 0.94, "{name}: {min} {average}");
+        }
+    }
+}
