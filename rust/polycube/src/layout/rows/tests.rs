@@ -18,13 +18,13 @@ fn polycube(seed: u64) -> Polycube {
 fn ranks(structure: &Structure, placement: &[f64]) -> (Vec<u16>, [usize; 3]) {
     let mut planes = [0; 3];
     let mut ranks = vec![0; placement.len()];
-    for axis in 0..3 {
+    for (axis, planes) in planes.iter_mut().enumerate() {
         let own = || (0..placement.len()).filter(|&l| structure.levels[l].axis == axis);
         let mut sorted: Vec<f64> = own().map(|l| placement[l]).collect();
         sorted.sort_by(f64::total_cmp);
         sorted.dedup();
         own().for_each(|l| ranks[l] = sorted.partition_point(|&x| x < placement[l]) as u16 + 1);
-        planes[axis] = sorted.len();
+        *planes = sorted.len();
     }
     (ranks, planes)
 }
