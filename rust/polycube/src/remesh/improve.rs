@@ -16,6 +16,8 @@ const PASSES: usize = 4;
 const GOOD: f64 = 0.5;
 /// Nor does one that gained less.
 const LEAST_GAIN: f64 = 0.02;
+/// Most rounds of untangling after the vertices in the way were released.
+const LATE_ROUNDS: usize = 15;
 /// How often vertices of inverted hexahedra are released.
 const RELEASES: usize = 4;
 
@@ -34,7 +36,13 @@ pub(super) fn improve(
     let slides = Slides::new(&map.input, shape)?;
     let elements = Elements::boxes_like(cells_of(hexes), &hexes.mesh.points, 3)?;
     let mut job = Job { elements, guides: slides.guides(), slides: &slides, hexes };
-    let first = Settings { untangle_rounds: 8, improve_rounds: 0, polish_rounds: 0, ..settings.clone() };
+    let first = Settings {
+        untangle_rounds: 8,
+        untangle_iterations: 50,
+        improve_rounds: 0,
+        polish_rounds: 0,
+        ..settings.clone()
+    };
     for (hold, part) in [(Hold::Surface, 0.0), (Hold::Edges, 0.15)] {
         let freedom = slides.freedoms(&job.hexes.sites, hold);
         if job.run(&freedom, &first, &context.stage("untangle", part, part + 0.15))? == 0 {
@@ -51,7 +59,8 @@ pub(super) fn improve(
         }
         released += job.release(&mut freedom);
     }
-    job.passes(&freedom, settings, &context.stage("optimise", 0.4, 1.0))?;
+    let settings = Settings { untangle_rounds: settings.untangle_rounds.min(LATE_ROUNDS), ..settings.clone() };
+    job.passes(&freedom, &settings, &context.stage("optimise", 0.4, 1.0))?;
     Ok(released)
 }
 
