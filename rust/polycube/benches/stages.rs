@@ -9,7 +9,7 @@ mod data;
 use criterion::{BenchmarkId, Criterion, criterion_group, criterion_main};
 use polycube::Context;
 use polycube::align::neighbours::neighbours;
-use polycube::align::{Options, align};
+use polycube::align::{Options, Strategy, align};
 use polycube::generate::random_with_corners;
 use polycube::layout::count;
 use polycube::map::morph;
@@ -34,7 +34,11 @@ fn stages(criterion: &mut Criterion, name: &str, mesh: &Mesh) {
     group.bench_function("structure", |b| b.iter(|| read(mesh)));
     group.bench_function("check", |b| b.iter(|| Arrangement::new(structure, placement).conflicts()));
     group.bench_function("neighbours", |b| b.iter(|| neighbours(&corners, &context)));
-    group.bench_function("align", |b| b.iter(|| align(structure, placement, &Options::default(), &context)));
+    for strategy in [Strategy::Paper, Strategy::Best] {
+        let options = Options { strategy, ..Options::default() };
+        let run = || align(structure, placement, &options, &context);
+        group.bench_function(format!("align, {strategy:?}"), |b| b.iter(run));
+    }
     group.bench_function("count", |b| b.iter(|| count(&arrangement)));
     group.finish();
 }

@@ -12,7 +12,7 @@
 //! mean processor time of all runs.
 
 use polycube::align::neighbours::neighbours;
-use polycube::align::{Options, align};
+use polycube::align::{Options, Strategy, align};
 use polycube::generate::{SplitMix64, random_with_corners};
 use polycube::layout::count;
 use polycube::map::morph;
@@ -64,7 +64,7 @@ fn stages(mesh: &Mesh) -> Result<Value> {
     }
     let arrange = || Arrangement::new(&polycube.structure, &polycube.placement);
     let (_, counted) = best(|| Ok(count(&arrange())))?;
-    let options = Options::default();
+    let options = Options { strategy: Strategy::Paper, ..Options::default() };
     let run = || align(&polycube.structure, &polycube.placement, &options, &Context::default());
     let (result, aligned) = best(run)?;
     Ok(json!({

@@ -171,6 +171,11 @@ pub fn simplify(input: &Input, options: &Options, context: &Context) -> Result<S
     let alignment = align::align(&polycube.structure, &polycube.placement, &settings, &aligning)?;
     let aligned = start.elapsed().as_secs_f64();
     let mut report = report(&polycube, &alignment, options.strategy, scale);
+    if options.strategy == Strategy::Best && alignment.bound.is_none() {
+        let note = "the result is that of Algorithm 1: there are more than 126 levels on every axis, too many to search, or \
+                    fewer patches would have meant more blocks";
+        report.notes.push(note.into());
+    }
     if let Some(limit) = options.max_displacement.filter(|&l| l < report.max_displacement) {
         let least = report.max_displacement;
         report
