@@ -72,6 +72,10 @@ pub struct Args {
     #[arg(long, value_enum, default_value_t)]
     pub strategy: StrategyArg,
 
+    /// The farthest that `best` may move a corner, in units of the polycube [default: a twelfth of its diagonal]
+    #[arg(long, value_name = "D", value_parser = positive)]
+    pub max_displacement: Option<f64>,
+
     /// The largest Hausdorff distance between mesh and shape to accept, in percent of the bounding box's diagonal
     #[arg(long, value_name = "PERCENT", value_parser = percent, default_value_t = 0.5)]
     pub max_hausdorff: f64,
@@ -113,7 +117,12 @@ impl SizeArgs {
 impl Args {
     fn options(&self) -> RemeshOptions {
         RemeshOptions {
-            simplify: Options { strategy: self.strategy.0, tolerance: self.tolerance.get(), ..Options::default() },
+            simplify: Options {
+                strategy: self.strategy.0,
+                max_displacement: self.max_displacement,
+                tolerance: self.tolerance.get(),
+                ..Options::default()
+            },
             size: self.size.get(),
             padding: usize::from(self.padding),
             surface_only: self.surface_only,

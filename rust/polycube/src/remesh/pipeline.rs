@@ -2,6 +2,7 @@
 
 use super::improve::improve;
 use super::refine::Refined;
+use super::report::diagonal;
 use super::report::{RemeshReport, Stages, cells_of, measure};
 
 use super::{Hexes, Layout, Quads, Remesher, Size, scale_for, untangle};
@@ -17,7 +18,8 @@ use std::time::Instant;
 #[derive(Clone, Debug, PartialEq)]
 pub struct RemeshOptions {
     /// How the polycube is simplified; [`Strategy::Naive`] meshes it as it is. Of `scale` only [`size`](Self::size) is used
-    /// where that is given.
+    /// where that is given. Unless it bounds the displacement, corners move by a twelfth of the polycube's diagonal at most,
+    /// as far as that can be had: fewer blocks than that allows make bad hexahedra.
     pub simplify: simplify::Options,
     /// How fine the mesh shall be; by default as [`simplify::Options::scale`] says.
     pub size: Option<Size>,
@@ -104,7 +106,10 @@ pub(super) struct Meshed {
 
 /// The simplified polycube at the wanted size.
 fn sized(input: &Input, options: &RemeshOptions, context: &Context) -> Result<Simplified> {
-    let found = simplify(input, &options.simplify, &context.stage("simplify", 0.0, 0.6))?;
+    let near = diagonal(input.polycube) / 12.0;
+    let simplifying =
+        simplify::Options { max_displacement: options.simplify.max_displacement.or(Some(near)), ..options.simplify };
+    let found = simplify(input, &simplifying, &context.stage("simplify", 0.0, 0.6))?;
     let scale = match options.size {
         Some(size) => scale_for(input, &found, size, options.padding, &context.stage("scale", 0.6, 0.7))?,
         None if found.report.valid => return Ok(found),

@@ -173,7 +173,7 @@ fn inverted(hexes: &Hexes, scaled_jacobian: &[f64]) -> Vec<InvertedCell> {
 }
 
 /// The diagonal of the bounding box of the points that cells use.
-fn diagonal(mesh: &Mesh) -> f64 {
+pub(super) fn diagonal(mesh: &Mesh) -> f64 {
     let mut low = [f64::INFINITY; 3];
     let mut high = [f64::NEG_INFINITY; 3];
     for v in (0..mesh.cells.len()).flat_map(|i| mesh.cells.cell(i)) {
