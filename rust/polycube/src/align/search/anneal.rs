@@ -98,12 +98,11 @@ impl<'a, R: PrimInt> Chain<'a, R> {
         state.count as f64 * (1.0 + weight * displacement)
     }
 
-    /// Walks from `start`, leaving every accepted state in `front`; the best state seen.
-    pub fn walk(&mut self, start: State, schedule: &Schedule, front: &mut Front, context: &Context) -> Result<State> {
+    /// Walks from `start`, leaving every accepted state in `front`.
+    pub fn walk(&mut self, start: State, schedule: &Schedule, front: &mut Front, context: &Context) -> Result<()> {
         let mut random = SplitMix64::new(schedule.seed);
-        let mut now = start.clone();
+        let mut now = start;
         let mut energy = self.energy(&now, schedule.weight);
-        let (mut best, mut lowest) = (start, energy);
         let scale = energy;
         // Neither logarithms nor powers of the standard library are the same on every machine.
         let cooling = libm::pow(schedule.cold / schedule.hot, 1.0 / f64::from(schedule.steps.max(1)));
@@ -120,12 +119,9 @@ impl<'a, R: PrimInt> Chain<'a, R> {
             if let Some((next, its)) = self.attempt(&now, limit, schedule.weight, &mut random) {
                 (now, energy) = (next, its);
                 front.offer(&now);
-                if energy < lowest {
-                    (best, lowest) = (now.clone(), energy);
-                }
             }
         }
-        Ok(best)
+        Ok(())
     }
 
     /// A random neighbour of `now` and its energy, if it is valid and its energy at most `limit`.

@@ -109,15 +109,9 @@ fn run<R: PrimInt + Send>(
     let begin = [valid[0].clone(), merged.clone()];
     let mut front = Front::default();
     valid.iter().chain([&merged]).for_each(|s| front.offer(s));
-    let results = walk_all::<R>(landscape, &begin, effort, context)?;
-    let mut best = if merged.count < begin[0].count { merged } else { begin[0].clone() };
-    for (state, seen) in results {
-        front.join(seen);
-        if (state.count, state.shape_cost()) < (best.count, best.shape_cost()) {
-            best = state;
-        }
-    }
-    let incumbent = front.states().next().unwrap_or(&best).ranks.clone();
+    walk_all::<R>(landscape, &begin, effort, context)?.into_iter().for_each(|seen| front.join(seen));
+    // The front holds every state accepted on the way, so it begins with the best of them.
+    let incumbent = front.states().next().unwrap_or(&merged).ranks.clone();
     let left = landscape.deadline.map(|d| d.saturating_duration_since(Instant::now()));
     let proof = prove(landscape.structure, landscape.objective, &incumbent, effort.proof_nodes, left, context)?;
     if let Some(state) = chain.state(proof.best.clone()) {
@@ -132,13 +126,13 @@ fn walk_all<R: PrimInt + Send>(
     begin: &[State; 2],
     effort: &Effort,
     context: &Context,
-) -> Result<Vec<(State, Front)>> {
+) -> Result<Vec<Front>> {
     let steps = effort.steps_per_level.saturating_mul(landscape.structure.levels.len() as u32);
     let walk = |i: usize| {
         let schedule = Schedule { steps, ..CHAINS[i] };
         let mut front = Front::default();
         let start = begin[i % 2].clone();
-        Chain::<R>::new(landscape).walk(start, &schedule, &mut front, context).map(|state| (state, front))
+        Chain::<R>::new(landscape).walk(start, &schedule, &mut front, context).map(|()| front)
     };
     let mut results = Vec::new();
     for first in (0..CHAINS.len()).step_by(2) {
