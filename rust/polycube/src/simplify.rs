@@ -226,7 +226,7 @@ pub fn simplify(input: &Input, options: &Options, context: &Context) -> Result<S
     let aligned = start.elapsed().as_secs_f64();
     let mut report = Report::new(&polycube, &alignment, options.strategy, scale);
     if options.strategy == Strategy::Best && alignment.bound.is_none() {
-        let note = "the result is that of Algorithm 1: there are more than 126 levels on every axis, too many to search, or \
+        let note = "the result is that of Algorithm 1: there are more than 1022 levels on every axis, too many to search, or \
                     fewer patches would have meant more blocks";
         report.notes.push(note.into());
     }

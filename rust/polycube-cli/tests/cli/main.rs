@@ -3,6 +3,7 @@
 
 mod demo;
 mod failures;
+mod guides;
 mod inspect;
 mod interrupt;
 mod real;

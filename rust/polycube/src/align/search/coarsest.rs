@@ -3,6 +3,7 @@
 use super::anneal::State;
 use super::{is_searchable, search};
 use crate::align::guides::Guided;
+use crate::align::judge::Judge;
 use crate::align::paper::{Outcome, descend, simplify};
 use crate::align::place::place_in_order;
 use crate::align::prove::Proof;
@@ -11,8 +12,8 @@ use crate::align::unit::Unit;
 use crate::align::{Alignment, LowerBound, Task, TradeOff};
 use crate::context::Context;
 use crate::error::Result;
-use crate::layout::count;
-use crate::structure::{Arrangement, Placement, Structure};
+use crate::layout::{Objective, count};
+use crate::structure::{Arrangement, Placement};
 
 /// Algorithm 1, then the search.
 pub fn coarsest(task: &Task, context: &Context) -> Result<Alignment> {
@@ -41,10 +42,6 @@ pub fn coarsest(task: &Task, context: &Context) -> Result<Alignment> {
     let bound = Some(LowerBound { count: bound, proven: proven && front[0].count == bound, nodes });
     let (before, rounds) = (task.before, paper.rounds);
     Ok(Alignment { levels, before, after, rounds, broken: Vec::new(), front, chosen: Some(chosen), bound })
-}
-
-fn blocks_padded(structure: &Structure, placement: &[f64]) -> usize {
-    count(&Arrangement::new(structure, placement)).blocks_padded
 }
 
 fn trade_off(task: &Task, state: &State) -> TradeOff {
