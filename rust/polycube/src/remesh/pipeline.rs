@@ -1,9 +1,11 @@
 //! The whole way from a polycube and its shape to a block structure, quadrilaterals and hexahedra.
 
 use super::improve::improve;
+use super::ladder::{Rung, coarser, count_inverted, on_levels};
 use super::refine::Refined;
 use super::report::diagonal;
 use super::report::{RemeshReport, Stages, cells_of, measure};
+use super::spacing::spaced;
 
 use super::{Hexes, Layout, Quads, Remesher, Size, scale_for, untangle};
 use crate::align::Strategy;
@@ -86,7 +88,8 @@ pub fn remesh(input: &Input, options: &RemeshOptions, context: &Context) -> Resu
     let shape = input.shape.unwrap_or(input.polycube);
     let (map, fine) = improve_map(&mut simplified, shape, &context.stage("map", 0.3, 0.4))?;
     stages.map = start.elapsed().as_secs_f64() - stages.simplify;
-    let meshed = mesh(&map, &fine, options, &mut stages, &context.stage("mesh", 0.4, 0.9))?;
+    let (map, meshed) = mesh(map, &fine, options, &mut stages, &context.stage("mesh", 0.4, 0.9))?;
+    adopt(&mut simplified, &map)?;
     let report = measure(&map, &meshed, shape, options, stages, &context.stage("measure", 0.9, 1.0))?;
     let Meshed { layout, quads, hexes, scaled_jacobian, .. } = meshed;
     let mut result = Remeshed { simplified, layout, quads, hexes, scaled_jacobian, report };
@@ -177,29 +180,101 @@ fn improve_map(simplified: &mut Simplified, shape: &Mesh, context: &Context) -> 
     Ok((map, shape))
 }
 
+/// Moves a simplified polycube to the levels of the map that was meshed.
+fn adopt(simplified: &mut Simplified, map: &Simplified) -> Result<()> {
+    if simplified.levels == map.levels {
+        return Ok(());
+    }
+    let mut moved = on_levels(simplified, map.levels.clone());
+    if let Some(mesh) = &moved.polycube {
+        moved.report.rejudge(&moved.input, mesh)?;
+    }
+    *simplified = moved;
+    Ok(())
+}
+
 fn mesh(
-    map: &Simplified,
+    map: Simplified,
     shape: &Mesh,
     options: &RemeshOptions,
     stages: &mut Stages,
     context: &Context,
-) -> Result<Meshed> {
+) -> Result<(Simplified, Meshed)> {
     let start = Instant::now();
-    let remesher = Remesher::new(map, shape, &context.stage("mesh", 0.0, 0.05))?;
+    let rung =
+        if options.surface_only { None } else { climb(&map, shape, options, &context.stage("optimise", 0.0, 0.2))? };
+    let map = match &rung {
+        Some(rung) if is_flexible(options) => {
+            let levels = spaced(&map, rung, options.padding, context)?;
+            on_levels(&map, levels)
+        }
+        _ => map,
+    };
+    let remesher = Remesher::new(&map, shape, &context.stage("mesh", 0.0, 0.05))?;
     let mut quads = remesher.quads(&context.stage("mesh", 0.05, 0.1))?;
     if options.surface_only {
         let points = remesher.surface_points(&context.stage("mesh", 0.1, 1.0))?.points;
         let layout = remesher.layout(&points, 0)?;
         stages.mesh = start.elapsed().as_secs_f64();
-        return Ok(Meshed { layout, quads, hexes: None, scaled_jacobian: Vec::new(), released: 0 });
+        let meshed = Meshed { layout, quads, hexes: None, scaled_jacobian: Vec::new(), released: 0 };
+        return Ok((map, meshed));
     }
     let mut hexes = remesher.hexes(options.padding, &context.stage("mesh", 0.1, 0.2))?;
     stages.mesh = start.elapsed().as_secs_f64();
-    let released = improve(map, &mut hexes, &shape.points, &options.optimise, &context.stage("optimise", 0.2, 1.0))?;
+    let released = finish(rung, &remesher, &mut hexes, options, &context.stage("optimise", 0.4, 1.0))?;
     stages.optimise = start.elapsed().as_secs_f64() - stages.mesh;
     quads.mesh.points = remesher.surface_of(&hexes.mesh.points, options.padding);
     let layout = remesher.layout(&hexes.mesh.points, options.padding)?;
     let cells = cells_of(&hexes);
     let scaled_jacobian = cells.iter().map(|c| crate::optimise::scaled_jacobian(&hexes.mesh.points, c)).collect();
-    Ok(Meshed { layout, quads, hexes: Some(hexes), scaled_jacobian, released })
+    drop(remesher);
+    Ok((map, Meshed { layout, quads, hexes: Some(hexes), scaled_jacobian, released }))
+}
+
+/// Whether levels may lie where the shape wants them: not if the scale was given, or the polycube is meshed as it is.
+fn is_flexible(options: &RemeshOptions) -> bool {
+    let sized = matches!(options.size, Some(Size::Hexes(_) | Size::EdgeLength(_)));
+    sized && options.simplify.strategy != Strategy::Naive
+}
+
+/// The finished mesh of a lattice about half as fine, which started from one half as fine again, and so on; nothing if there
+/// is none.
+fn climb(map: &Simplified, shape: &Mesh, options: &RemeshOptions, context: &Context) -> Result<Option<Rung>> {
+    let maps = coarser(map, options.padding, context)?;
+    let mut rung: Option<Rung> = None;
+    for (i, map) in maps.iter().enumerate() {
+        let [from, to] = [i, i + 1].map(|k| k as f64 / maps.len() as f64);
+        let context = context.stage("optimise", from, to);
+        let map = match &rung {
+            Some(rung) if is_flexible(options) => on_levels(map, spaced(map, rung, options.padding, &context)?),
+            _ => map.clone(),
+        };
+        let remesher = Remesher::new(&map, shape, &context)?;
+        let mut hexes = remesher.hexes(options.padding, &context)?;
+        finish(rung, &remesher, &mut hexes, options, &context)?;
+        rung = Some(Rung::new(remesher, &hexes, options.padding));
+    }
+    Ok(rung)
+}
+
+/// Improves `hexes`, starting from the mesh of a coarser lattice if that leads to no inverted hexahedron, else as they are.
+/// Returns how many vertices were released.
+fn finish(
+    rung: Option<Rung>,
+    remesher: &Remesher,
+    hexes: &mut Hexes,
+    options: &RemeshOptions,
+    context: &Context,
+) -> Result<usize> {
+    let improve = |hexes: &mut Hexes| improve(remesher.simplified, hexes, remesher.shape, &options.optimise, context);
+    if let Some(rung) = rung.filter(|r| r.inverted == 0) {
+        let mut started = hexes.clone();
+        rung.start(remesher, &mut started)?;
+        let released = improve(&mut started)?;
+        if count_inverted(&started) == 0 {
+            *hexes = started;
+            return Ok(released);
+        }
+    }
+    improve(hexes)
 }

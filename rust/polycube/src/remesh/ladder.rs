@@ -1,0 +1,173 @@
+//! From coarse lattices to fine ones: what a coarse mesh costs little to find is where a fine one starts.
+
+use super::grid::Grid;
+use super::interior::interpolate;
+use super::keys::{Keys, rank};
+use super::padding::Padding;
+use super::report::cells_of;
+use super::spacing::tamed;
+use super::{Hexes, Remesher, count_hexes};
+use crate::align::{self, Options, Strategy};
+use crate::context::Context;
+use crate::error::Result;
+use crate::mesh::Point;
+use crate::optimise::scaled_jacobian;
+use crate::simplify::Simplified;
+
+/// A mesh of fewer hexahedra needs none coarser to start from,
+const FEW: u64 = 600;
+/// nor does one of fewer a block: the shape of its surface is lost.
+const FEW_PER_BLOCK: usize = 16;
+/// A lattice of half the levels must have no more than this share of the hexahedra, or it is no help.
+const FEWER: f64 = 0.6;
+/// The part that a padding layer keeps of its thickness on a finer lattice, where it has less to keep away.
+const THINNER: f64 = 0.6;
+
+/// The map onto coarser and coarser lattices of the same order of levels, each about half as fine: the coarsest first, `map`
+/// itself left out. The points between levels are moved in proportion.
+///
+/// # Errors
+/// Those of [`align::rescale`].
+pub(super) fn coarser(map: &Simplified, padding: usize, context: &Context) -> Result<Vec<Simplified>> {
+    let structure = &map.input.structure;
+    let halving = Options { strategy: Strategy::Paper, scale: 0.5, ..Options::default() };
+    let blocks = map.report.after.map_or(0, |counts| counts.blocks_padded);
+    let mut maps: Vec<Simplified> = Vec::new();
+    loop {
+        let fine = maps.last().unwrap_or(map);
+        let count = count_hexes(structure, &fine.levels, padding);
+        if count <= FEW.max((FEW_PER_BLOCK * blocks) as u64) {
+            break;
+        }
+        let targets: Vec<f64> = fine.levels.iter().map(|&x| x as f64).collect();
+        let levels = align::rescale(structure, &targets, &fine.levels, &halving, context)?;
+        if count_hexes(structure, &levels, padding) as f64 > FEWER * count as f64 {
+            break;
+        }
+        maps.push(on_levels(fine, levels));
+    }
+    maps.reverse();
+    Ok(maps)
+}
+
+/// The same map onto a lattice with other levels in the same order.
+pub(super) fn on_levels(map: &Simplified, levels: Vec<i64>) -> Simplified {
+    let mut moved = map.clone();
+    if let Some(mesh) = &mut moved.polycube {
+        mesh.points = warped(map, &levels, &mesh.points);
+    }
+    moved.levels = levels;
+    moved
+}
+
+/// Points on the lattice of `map` moved onto one with other levels.
+pub(super) fn warped(map: &Simplified, levels: &[i64], points: &[Point]) -> Vec<Point> {
+    let warp = Warp::new(map, &map.levels, levels);
+    points.iter().map(|p| Point::from(warp.apply(p.coords.into()))).collect()
+}
+
+/// From one lattice to another with the same order of levels: linear between levels.
+struct Warp {
+    /// Levels of each axis from one lattice, ascending, with those of the other.
+    planes: [Vec<[f64; 2]>; 3],
+}
+
+impl Warp {
+    fn new(map: &Simplified, from: &[i64], to: &[i64]) -> Self {
+        let mut planes = [const { Vec::new() }; 3];
+        for (level, (&from, &to)) in map.input.structure.levels.iter().zip(from.iter().zip(to)) {
+            planes[level.axis].push([from as f64, to as f64]);
+        }
+        for own in &mut planes {
+            own.sort_by(|a, b| a[0].total_cmp(&b[0]));
+            own.dedup();
+        }
+        Self { planes }
+    }
+
+    fn apply(&self, at: [f64; 3]) -> [f64; 3] {
+        std::array::from_fn(|a| {
+            let planes = &self.planes[a];
+            let above = planes.partition_point(|p| p[0] <= at[a]).clamp(1, planes.len() - 1);
+            let [low, high] = [planes[above - 1], planes[above]];
+            let part = (at[a] - low[0]) / (high[0] - low[0]);
+            low[1] + (high[1] - low[1]) * part
+        })
+    }
+}
+
+/// A finished mesh of a coarse lattice.
+pub(super) struct Rung {
+    grid: Grid,
+    pub(super) levels: Vec<i64>,
+    /// The lattice's vertices; those on its surface under each padding layer in turn, the outermost last.
+    layers: Vec<Vec<Point>>,
+    pub(super) inverted: usize,
+}
+
+impl Rung {
+    /// Keeps what a finer mesh can start from.
+    pub(super) fn new(remesher: Remesher, hexes: &Hexes, layers: usize) -> Self {
+        let (grid, levels) = (remesher.grid, remesher.simplified.levels.clone());
+        let padding = Padding::new(&grid, layers);
+        let points = &hexes.mesh.points;
+        let mut lattice = points[..grid.vertices.len()].to_vec();
+        let mut all = vec![lattice.clone()];
+        for layer in 1..=layers {
+            for &v in &padding.ring {
+                lattice[v as usize] = points[padding.number(&grid, v, layer) as usize];
+            }
+            all.push(lattice.clone());
+        }
+        Self { grid, levels, layers: all, inverted: count_inverted(hexes) }
+    }
+
+    /// How long the lattice edges along each axis are in each layer of cells, from the lowest: root mean squares.
+    pub(super) fn lengths(&self) -> [Vec<f64>; 3] {
+        let planes = |axis: usize| (0..self.grid.vertices.len()).map(move |v| self.grid.position(v)[axis] as i64);
+        let ends = [0, 1, 2].map(|a| [planes(a).min().unwrap_or(0), planes(a).max().unwrap_or(0)]);
+        let mut sums = ends.map(|[low, high]| vec![[0.0; 2]; (high - low) as usize]);
+        let points = &self.layers[self.layers.len() - 1];
+        for (v, &key) in self.grid.vertices.iter().enumerate() {
+            for axis in 0..3 {
+                let Some(next) = rank(&self.grid.vertices, key + Keys::step(axis)) else { continue };
+                let layer = (self.grid.position(v)[axis] as i64 - ends[axis][0]) as usize;
+                let sum = &mut sums[axis][layer];
+                sum[0] += (points[next as usize] - points[v]).norm_squared();
+                sum[1] += 1.0;
+            }
+        }
+        tamed(sums.map(|own| own.into_iter().map(|[sum, n]| if n > 0.0 { (sum / n).sqrt() } else { 0.0 }).collect()))
+    }
+
+    /// Places the vertices of a finer mesh as in this one.
+    ///
+    /// # Errors
+    /// Those of [`interpolate`].
+    pub(super) fn start(&self, remesher: &Remesher, hexes: &mut Hexes) -> Result<()> {
+        let grid = &remesher.grid;
+        let warp = Warp::new(remesher.simplified, &remesher.simplified.levels, &self.levels);
+        let layers = self.layers.len() - 1;
+        let padding = Padding::new(grid, layers);
+        let place =
+            |v: u32, layer: usize| interpolate(&self.grid, &self.layers[layer], warp.apply(grid.position(v as usize)));
+        let mut points = hexes.mesh.points.clone();
+        for v in 0..grid.vertices.len() as u32 {
+            points[v as usize] = place(v, 0)?;
+        }
+        for &v in &padding.ring {
+            let outermost = place(v, layers)?;
+            for layer in 0..=layers {
+                let at = place(v, layer)?;
+                points[padding.number(grid, v, layer) as usize] = outermost + (at - outermost) * THINNER;
+            }
+        }
+        hexes.mesh.points = points;
+        Ok(())
+    }
+}
+
+/// How many hexahedra are inverted or flat.
+pub(super) fn count_inverted(hexes: &Hexes) -> usize {
+    cells_of(hexes).iter().filter(|c| scaled_jacobian(&hexes.mesh.points, c) <= 0.0).count()
+}
