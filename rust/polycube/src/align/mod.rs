@@ -4,6 +4,7 @@
 //! into an integer [`problem`], [`solve`]s it, checks the result exactly, and repeats.
 
 mod classes;
+mod judge;
 mod options;
 mod order;
 mod paper;
@@ -86,9 +87,19 @@ pub fn align(structure: &Structure, input: &[f64], options: &Options, context: &
     let before = count(&arrangement);
     match options.strategy {
         Strategy::Naive => Ok(naive(structure, &targets, before)),
-        Strategy::Paper => paper::simplify(structure, input, &targets, before, options, context),
-        Strategy::Best => search::coarsest(structure, input, &targets, before, options, context),
+        Strategy::Paper => checked(structure, paper::simplify(structure, input, &targets, before, options, context)?),
+        Strategy::Best => checked(structure, search::coarsest(structure, input, &targets, before, options, context)?),
     }
+}
+
+/// The alignment, if its levels are a valid polycube by the exact check.
+fn checked(structure: &Structure, found: Alignment) -> Result<Alignment> {
+    let placement: Placement = found.levels.iter().map(|&x| x as f64).collect();
+    let arrangement = Arrangement::new(structure, &placement);
+    if arrangement.conflicts().is_empty() && arrangement.inside_out().is_empty() {
+        return Ok(found);
+    }
+    Err(Error::new(ErrorKind::Internal, "the polycube found touches itself"))
 }
 
 /// The alignment at another scale: the order of `levels`, which [`align`] found at any scale, as near as possible to `input`

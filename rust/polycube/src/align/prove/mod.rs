@@ -63,11 +63,11 @@
 mod bound;
 mod clauses;
 mod grid;
-mod judge;
 mod outline;
 mod relations;
 mod tree;
 
+use super::judge::Judge;
 use super::ranks::Ranks;
 use crate::context::Context;
 use crate::error::{Error, ErrorKind, Result};
@@ -75,7 +75,6 @@ use crate::layout::Objective;
 use crate::structure::Structure;
 use bound::Bound;
 use clauses::Rules;
-use judge::Judge;
 use std::time::Duration;
 use tree::{Limits, Tree};
 
@@ -132,8 +131,8 @@ pub fn prove(
     time_limit: Option<Duration>,
     context: &Context,
 ) -> Result<Proof> {
-    let mut judge = Judge::new(structure, objective);
-    let count = judge.cost(incumbent).ok_or_else(|| {
+    let mut judge = Judge::new(structure);
+    let count = judge.cost(objective, incumbent).ok_or_else(|| {
         Error::new(ErrorKind::Polycube, "the order to start from is not a valid polycube")
             .remedy("start from the order of the input, or from a result of `align`")
     })?;

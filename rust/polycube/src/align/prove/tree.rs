@@ -3,8 +3,8 @@
 use super::Proof;
 use super::bound::{Bound, Least};
 use super::clauses::Rules;
-use super::judge::Judge;
 use super::relations::{ABOVE, BELOW, EQUAL, Relations, is_decided};
+use crate::align::judge::Judge;
 use crate::align::ranks::Ranks;
 use crate::context::Context;
 use crate::error::Result;
@@ -116,7 +116,7 @@ impl<'a> Tree<'a> {
     fn assess(&mut self, relations: Relations, inherited: usize) -> Option<Child> {
         if self.undecided(&relations).is_none() {
             let ranks = self.ranks(&relations);
-            if let Some(cost) = self.judge.cost(&ranks).filter(|c| *c < self.count) {
+            if let Some(cost) = self.judge.cost(self.objective, &ranks).filter(|c| *c < self.count) {
                 (self.best, self.count) = (ranks, cost);
             }
             return None;

@@ -2,6 +2,7 @@
 
 use super::anneal::State;
 use super::{Found, is_searchable, search};
+use crate::align::judge::Judge;
 use crate::align::order::place_in_order;
 use crate::align::paper::{Outcome, simplify};
 use crate::align::solve::Solver;
@@ -9,8 +10,8 @@ use crate::align::unit::Unit;
 use crate::align::{Alignment, LowerBound, Options, TradeOff, to_integers};
 use crate::context::Context;
 use crate::error::Result;
-use crate::layout::{Counts, Objective, count};
-use crate::structure::{Arrangement, Placement, Structure};
+use crate::layout::{Counts, Objective};
+use crate::structure::{Placement, Structure};
 
 /// Algorithm 1, then the search.
 pub fn coarsest(
@@ -35,7 +36,7 @@ pub fn coarsest(
     let chosen = choose(structure, &found, targets, options, &*solver, context)?;
     let order = relaxed(structure, input, &chosen, options.objective, &*solver, context)?;
     let levels = place_in_order(structure, &order, targets, &*solver, context)?;
-    let after = count(&Arrangement::new(structure, &levels));
+    let after = Judge::new(structure).counts_of(&levels);
     if after.blocks_padded > before.blocks_padded {
         // Fewer patches can mean more blocks; the promise is never more of them than there were.
         return simplify(structure, input, targets, before, options, context);
@@ -90,6 +91,7 @@ fn relaxed(
     let start = place_in_order(structure, found, &fine, solver, context)?;
     let outcome = Outcome::of(structure, &start);
     let near = outcome.settle(&fine, solver, context)?;
-    let no_worse = count(&near).of(objective) <= count(&outcome.arrangement).of(objective);
-    Ok(if no_worse { near.placement().to_vec() } else { start })
+    let mut judge = Judge::new(structure);
+    let no_worse = judge.counts_of(&near).of(objective) <= judge.counts_of(&start).of(objective);
+    Ok(if no_worse { near } else { start })
 }
