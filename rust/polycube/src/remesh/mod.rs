@@ -7,6 +7,8 @@
 
 mod barycentric;
 mod base_complex;
+mod choose;
+mod climb;
 mod closest;
 mod embedding;
 mod grid;
@@ -15,7 +17,6 @@ mod hexes;
 mod improve;
 mod interior;
 mod keys;
-mod ladder;
 mod layout;
 mod locate;
 mod padding;
@@ -30,6 +31,7 @@ mod spacing;
 mod surface_map;
 mod untangle;
 mod volume_map;
+mod warp;
 
 #[cfg(test)]
 mod tests;

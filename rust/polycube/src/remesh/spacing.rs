@@ -1,6 +1,6 @@
 //! Lattice steps where the shape is long: the levels of a polycube spaced by what lies between them on the shape.
 
-use super::ladder::Rung;
+use super::climb::Rung;
 use super::size::{Search, count_hexes};
 use crate::align::{self, Options};
 use crate::context::Context;

@@ -1,16 +1,20 @@
 //! From coarse lattices to fine ones: what a coarse mesh costs little to find is where a fine one starts.
 
+use super::choose::is_flexible;
 use super::grid::Grid;
+use super::improve::improve;
 use super::interior::interpolate;
 use super::keys::{Keys, rank};
 use super::padding::Padding;
+use super::pipeline::RemeshOptions;
 use super::report::cells_of;
-use super::spacing::tamed;
+use super::spacing::{spaced, tamed};
+use super::warp::{Warp, on_levels};
 use super::{Hexes, Remesher, count_hexes};
 use crate::align::{self, Options, Strategy};
 use crate::context::Context;
 use crate::error::Result;
-use crate::mesh::Point;
+use crate::mesh::{Mesh, Point};
 use crate::optimise::scaled_jacobian;
 use crate::simplify::Simplified;
 
@@ -28,7 +32,7 @@ const THINNER: f64 = 0.6;
 ///
 /// # Errors
 /// Those of [`align::rescale`].
-pub(super) fn coarser(map: &Simplified, padding: usize, context: &Context) -> Result<Vec<Simplified>> {
+fn coarser(map: &Simplified, padding: usize, context: &Context) -> Result<Vec<Simplified>> {
     let structure = &map.input.structure;
     let halving = Options { strategy: Strategy::Paper, scale: 0.5, ..Options::default() };
     let blocks = map.report.after.map_or(0, |counts| counts.blocks_padded);
@@ -50,59 +54,14 @@ pub(super) fn coarser(map: &Simplified, padding: usize, context: &Context) -> Re
     Ok(maps)
 }
 
-/// The same map onto a lattice with other levels in the same order.
-pub(super) fn on_levels(map: &Simplified, levels: Vec<i64>) -> Simplified {
-    let mut moved = map.clone();
-    if let Some(mesh) = &mut moved.polycube {
-        mesh.points = warped(map, &levels, &mesh.points);
-    }
-    moved.levels = levels;
-    moved
-}
-
-/// Points on the lattice of `map` moved onto one with other levels.
-pub(super) fn warped(map: &Simplified, levels: &[i64], points: &[Point]) -> Vec<Point> {
-    let warp = Warp::new(map, &map.levels, levels);
-    points.iter().map(|p| Point::from(warp.apply(p.coords.into()))).collect()
-}
-
-/// From one lattice to another with the same order of levels: linear between levels.
-struct Warp {
-    /// Levels of each axis from one lattice, ascending, with those of the other.
-    planes: [Vec<[f64; 2]>; 3],
-}
-
-impl Warp {
-    fn new(map: &Simplified, from: &[i64], to: &[i64]) -> Self {
-        let mut planes = [const { Vec::new() }; 3];
-        for (level, (&from, &to)) in map.input.structure.levels.iter().zip(from.iter().zip(to)) {
-            planes[level.axis].push([from as f64, to as f64]);
-        }
-        for own in &mut planes {
-            own.sort_by(|a, b| a[0].total_cmp(&b[0]));
-            own.dedup();
-        }
-        Self { planes }
-    }
-
-    fn apply(&self, at: [f64; 3]) -> [f64; 3] {
-        std::array::from_fn(|a| {
-            let planes = &self.planes[a];
-            let above = planes.partition_point(|p| p[0] <= at[a]).clamp(1, planes.len() - 1);
-            let [low, high] = [planes[above - 1], planes[above]];
-            let part = (at[a] - low[0]) / (high[0] - low[0]);
-            low[1] + (high[1] - low[1]) * part
-        })
-    }
-}
-
 /// A finished mesh of a coarse lattice.
 pub(super) struct Rung {
     grid: Grid,
     pub(super) levels: Vec<i64>,
     /// The lattice's vertices; those on its surface under each padding layer in turn, the outermost last.
     layers: Vec<Vec<Point>>,
-    pub(super) inverted: usize,
+    /// Its worst scaled Jacobian.
+    pub(super) worst: f64,
 }
 
 impl Rung {
@@ -119,7 +78,7 @@ impl Rung {
             }
             all.push(lattice.clone());
         }
-        Self { grid, levels, layers: all, inverted: count_inverted(hexes) }
+        Self { grid, levels, layers: all, worst: worst(hexes) }
     }
 
     /// How long the lattice edges along each axis are in each layer of cells, from the lowest: root mean squares.
@@ -167,7 +126,60 @@ impl Rung {
     }
 }
 
-/// How many hexahedra are inverted or flat.
-pub(super) fn count_inverted(hexes: &Hexes) -> usize {
-    cells_of(hexes).iter().filter(|c| scaled_jacobian(&hexes.mesh.points, c) <= 0.0).count()
+/// The worst scaled Jacobian of a mesh.
+fn worst(hexes: &Hexes) -> f64 {
+    cells_of(hexes).iter().map(|c| scaled_jacobian(&hexes.mesh.points, c)).fold(1.0, f64::min)
+}
+
+/// The finished mesh of a lattice about half as fine, which started from one half as fine again, and so on; nothing if there
+/// is none.
+///
+/// # Errors
+/// Those of [`Remesher`] and [`optimise`](crate::optimise::optimise()).
+pub(super) fn climb(
+    map: &Simplified,
+    shape: &Mesh,
+    options: &RemeshOptions,
+    context: &Context,
+) -> Result<Option<Rung>> {
+    let maps = coarser(map, options.padding, context)?;
+    let mut rung: Option<Rung> = None;
+    for (i, map) in maps.iter().enumerate() {
+        let [from, to] = [i, i + 1].map(|k| k as f64 / maps.len() as f64);
+        let context = context.stage("map", from, to);
+        let map = match &rung {
+            Some(rung) if is_flexible(options) => on_levels(map, spaced(map, rung, options.padding, &context)?),
+            _ => map.clone(),
+        };
+        let remesher = Remesher::new(&map, shape, &context)?;
+        let mut hexes = remesher.hexes(options.padding, &context)?;
+        finish(rung, &remesher, &mut hexes, options, &context)?;
+        rung = Some(Rung::new(remesher, &hexes, options.padding));
+    }
+    Ok(rung)
+}
+
+/// Improves `hexes`, starting from the mesh of a coarser lattice if that leads to no inverted hexahedron, else as they are.
+/// Returns how many vertices were released.
+///
+/// # Errors
+/// Those of [`optimise`](crate::optimise::optimise()).
+pub(super) fn finish(
+    rung: Option<Rung>,
+    remesher: &Remesher,
+    hexes: &mut Hexes,
+    options: &RemeshOptions,
+    context: &Context,
+) -> Result<usize> {
+    let improve = |hexes: &mut Hexes| improve(remesher.simplified, hexes, remesher.shape, &options.optimise, context);
+    if let Some(rung) = rung.filter(|r| r.worst > 0.0) {
+        let mut started = hexes.clone();
+        rung.start(remesher, &mut started)?;
+        let released = improve(&mut started)?;
+        if worst(&started) > 0.0 {
+            *hexes = started;
+            return Ok(released);
+        }
+    }
+    improve(hexes)
 }
