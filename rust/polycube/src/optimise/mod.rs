@@ -19,6 +19,7 @@ mod freedom;
 mod guide;
 mod improve;
 mod lbfgs;
+mod nearest;
 mod polish;
 mod problem;
 mod quality;
@@ -29,6 +30,7 @@ mod untangle;
 pub use elements::{Elements, Measure};
 pub use freedom::Freedom;
 pub use guide::{Contact, CurveGuide, Guide, SurfaceGuide, Tangent};
+pub(crate) use nearest::{Foot, Nearest};
 pub use quality::{
     BARS, Statistics, cell_qualities, hexahedron_volume, scaled_jacobian, statistics, tetrahedron_scaled_jacobian,
     tetrahedron_volume,
