@@ -11,13 +11,13 @@ use nalgebra::Vector3;
 use rayon::prelude::*;
 
 /// Rounds of moves at most.
-const ROUNDS: usize = 12;
+const ROUNDS: usize = 20;
 /// Samples farther than this part of the bound pull.
-const TAUT: f64 = 0.85;
+const TAUT: f64 = 0.8;
 /// How far vertices may leave the shape, as a part of the bound.
 const LIFT: f64 = 0.8;
 /// No hexahedron may become worse than this part of the worst.
-const KEEP: f64 = 0.97;
+const KEEP: f64 = 0.9;
 /// Samples along the side of a quadrilateral, its ends included.
 const SIDE: usize = 5;
 

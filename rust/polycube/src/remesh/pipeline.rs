@@ -83,16 +83,18 @@ pub fn remesh(input: &Input, options: &RemeshOptions, context: &Context) -> Resu
     let seconds = || start.elapsed().as_secs_f64();
     let found = simplify(input, &simplifying(input, options), &context.stage("simplify", 0.0, 0.2))?;
     let mut stages = Stages { simplify: seconds(), ..Stages::default() };
+    let spent = found.report.seconds;
     let Start { mut simplified, map, shape: fine, rung } =
         choose(input, found, options, &context.stage("map", 0.2, 0.5))?;
     stages.map = seconds() - stages.simplify;
+    simplified.report.seconds = spent;
     let shape = input.shape.unwrap_or(input.polycube);
     let meshed = mesh(&map, &fine, rung, options, &mut stages, &context.stage("mesh", 0.5, 0.9))?;
     untangle(&mut simplified, input, &context.stage("map", 0.9, 0.95))?;
     let report = measure(&simplified, &meshed, shape, options, stages, &context.stage("measure", 0.95, 1.0))?;
     let Meshed { layout, quads, hexes, scaled_jacobian, .. } = meshed;
     let mut result = Remeshed { simplified, layout, quads, hexes, scaled_jacobian, report };
-    result.report.seconds.total = seconds();
+    result.report.set_seconds(seconds());
     Ok(result)
 }
 

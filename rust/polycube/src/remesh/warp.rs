@@ -48,3 +48,16 @@ impl Warp {
         })
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn between_levels_and_beyond_them_coordinates_are_in_proportion() {
+        let planes = || vec![[0.0, 0.0], [2.0, 1.0], [3.0, 5.0]];
+        let warp = Warp { planes: [planes(), planes(), planes()] };
+        assert_eq!(warp.apply([1.0, 2.5, 2.0]), [0.5, 3.0, 1.0]);
+        assert_eq!(warp.apply([0.0, 3.0, 4.0]), [0.0, 5.0, 9.0]);
+    }
+}
