@@ -42,6 +42,9 @@ class PolycubeError(Exception):
     def __str__(self) -> str:
         return str(self.args[0])
 
+    def __repr__(self) -> str:
+        return f"{type(self).__name__}({str(self)!r})"
+
 
 class FileError(PolycubeError, OSError):
     """A file cannot be read, created, written or renamed."""
