@@ -6,9 +6,10 @@ mod pairs;
 mod restart;
 
 pub use pairs::Pair;
-pub use restart::simplify;
+pub use restart::{descend, simplify};
 
 use super::classes::Classes;
+use super::guides::Guided;
 use super::problem::{Difference, Linear, Problem};
 use super::relax::{Demand, relax};
 use super::solve::Solver;
@@ -76,6 +77,8 @@ pub struct Settings<'a> {
     pub lambda_min: f64,
     /// The solver of the integer problems.
     pub solver: &'a dyn Solver,
+    /// What must stay; the input of a run must respect it.
+    pub guided: &'a Guided,
     /// Whether every pair gets the separation plane of Eq. 4, which the solver must then accept; else a pair is
     /// kept apart only if its corners would meet, along the axis where they are furthest apart.
     pub oblique_planes: bool,
@@ -83,7 +86,7 @@ pub struct Settings<'a> {
 
 /// Aligns the corners of a valid placement, given in lattice steps.
 pub fn run<'a>(structure: &'a Structure, input: &[f64], settings: &Settings, context: &Context) -> Result<Outcome<'a>> {
-    let classes = Classes::new(input.len());
+    let classes = settings.guided.classes().clone();
     let outcome = Outcome { arrangement: Arrangement::new(structure, input), classes, rounds: Vec::new() };
     let mut state = State { input, settings, outcome, plan: None };
     for halvings in 0..=Problem::MAX_HALVINGS {
@@ -146,7 +149,8 @@ impl State<'_, '_> {
 
     fn make_plan(&self, context: &Context) -> Result<Plan> {
         let arrangement = &self.outcome.arrangement;
-        let differences = structural(arrangement);
+        let mut differences = structural(arrangement);
+        differences.extend(self.settings.guided.differences(arrangement.placement()));
         let pairs = candidates(arrangement, &self.outcome.classes, &differences, context)?;
         let planes = if self.settings.oblique_planes {
             pairs.iter().flat_map(|p| self.oblique(p)).collect()

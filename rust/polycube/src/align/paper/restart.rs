@@ -1,65 +1,102 @@
 //! Algorithm 1 until a fresh start finds nothing more.
 
-use super::Round;
-use super::{Settings, run};
-use crate::align::order::place_in_order;
+use super::{Round, Settings, run};
+use crate::align::guides::{Guided, is_valid};
+use crate::align::place::place_in_order;
+use crate::align::ranks::Ranks;
 use crate::align::unit::Unit;
-use crate::align::{Alignment, Options, SolverKind, to_integers};
+use crate::align::{Alignment, SolverKind, Task};
 use crate::context::Context;
 use crate::error::Result;
 use crate::layout::{Counts, count};
-use crate::structure::{Arrangement, Structure};
+use crate::structure::{Arrangement, Placement};
 
 /// Algorithm 1 from λ = 1 again and again until it finds nothing more, so that a second call changes nothing.
-pub fn simplify(
-    structure: &Structure,
-    input: &[f64],
-    targets: &[f64],
-    before: Counts,
-    options: &Options,
-    context: &Context,
-) -> Result<Alignment> {
-    let solver = options.solver.solver();
-    let oblique_planes = options.solver == SolverKind::Linear;
-    let settings = Settings { lambda_min: options.lambda_min, solver: &*solver, oblique_planes };
-    let mut best = place_in_order(structure, input, targets, &*solver, context)?;
-    let mut after = before;
-    let mut rounds = Vec::new();
-    let mut from = input.to_vec();
-    loop {
-        let (found, steps) = improve(structure, &from, input, &settings, context)?;
-        let counts = count(&found);
-        let improved = counts.blocks_padded < after.blocks_padded;
-        if rounds.is_empty() || improved {
-            rounds.extend(steps);
-        }
-        if !improved {
-            break;
-        }
-        best = place_in_order(structure, found.placement(), targets, &*solver, context)?;
-        from.clone_from(&best);
-        after = counts;
-    }
-    let levels = to_integers(&best);
-    Ok(Alignment { levels, before, after: Some(after), rounds, broken: Vec::new(), front: Vec::new(), bound: None })
+///
+/// # Errors
+/// [`ErrorKind::Infeasible`](crate::ErrorKind::Infeasible) if what the guides ask for has more blocks than the input.
+pub fn simplify(task: &Task, context: &Context) -> Result<Alignment> {
+    let Descent { levels, after, rounds } = descend(task, &task.targets, &task.guided, context)?;
+    task.check_blocks(&after)?;
+    Ok(Alignment {
+        levels,
+        before: task.before,
+        after: Some(after),
+        rounds,
+        broken: Vec::new(),
+        front: Vec::new(),
+        chosen: None,
+        bound: None,
+    })
 }
 
-/// One run of Algorithm 1 on `from`, settled near `input` or, if only that is as coarse, near `from`.
+/// Where repeated runs of Algorithm 1 end.
+pub struct Descent {
+    /// The lattice coordinate of every level.
+    pub levels: Vec<i64>,
+    /// The counts there.
+    pub after: Counts,
+    /// The rounds of the runs that found something.
+    pub rounds: Vec<Round>,
+}
+
+/// Runs of Algorithm 1, each from where the last ended, placed near `targets` as `placing` has it.
+pub fn descend(task: &Task, targets: &[f64], placing: &Guided, context: &Context) -> Result<Descent> {
+    let structure = task.structure;
+    let solver = task.options.solver.solver();
+    let oblique_planes = task.options.solver == SolverKind::Linear;
+    let settings =
+        Settings { lambda_min: task.options.lambda_min, solver: &*solver, guided: &task.guided, oblique_planes };
+    let place = |order: &[f64]| place_in_order(structure, &Ranks::new(structure, order), targets, placing);
+    let mut best = place(&task.start)?;
+    let mut after =
+        if task.start == task.input { task.before } else { count(&Arrangement::new(structure, &task.start)) };
+    let mut rounds = Vec::new();
+    let mut from = task.start.clone();
+    loop {
+        let (found, steps) = improve(task, &from, &settings, context)?;
+        let counts = found.as_ref().map(count);
+        let improved = counts.filter(|c| c.blocks_padded < after.blocks_padded);
+        if rounds.is_empty() || improved.is_some() {
+            rounds.extend(steps);
+        }
+        let (Some(found), Some(counts)) = (found, improved) else { break };
+        best = place(found.placement())?;
+        from = best.iter().map(|&x| x as f64).collect();
+        after = counts;
+    }
+    Ok(Descent { levels: best, after, rounds })
+}
+
+/// One run of Algorithm 1 on `from`, settled near the start or, if only that is as coarse, near `from`; nothing if the guides do
+/// not allow where it ends.
 fn improve<'a>(
-    structure: &'a Structure,
+    task: &Task<'a>,
     from: &[f64],
-    input: &[f64],
     settings: &Settings,
     context: &Context,
-) -> Result<(Arrangement<'a>, Vec<Round>)> {
+) -> Result<(Option<Arrangement<'a>>, Vec<Round>)> {
+    let structure = task.structure;
     let own = Unit::of(structure, from).apply(structure, from);
     let outcome = run(structure, &own, settings, context)?;
-    let near = outcome.settle(&own, settings.solver, context)?;
-    if from == input {
+    let near = guided(task, outcome.settle(&own, settings.solver, context)?);
+    if from == task.start {
         return Ok((near, outcome.rounds));
     }
-    let original = Unit::of(structure, input).apply(structure, input);
-    let faithful = outcome.settle(&original, settings.solver, context)?;
-    let coarser = count(&faithful).blocks_padded <= count(&near).blocks_padded;
+    let original = Unit::of(structure, &task.start).apply(structure, &task.start);
+    let faithful = guided(task, outcome.settle(&original, settings.solver, context)?);
+    let blocks = |a: &Option<Arrangement>| a.as_ref().map_or(usize::MAX, |a| count(a).blocks_padded);
+    let coarser = blocks(&faithful) <= blocks(&near);
     Ok((if coarser { faithful } else { near }, outcome.rounds))
+}
+
+/// The arrangement if the guides allow it; else the one with everything half way to its mirror image, if that is valid.
+fn guided<'a>(task: &Task<'a>, found: Arrangement<'a>) -> Option<Arrangement<'a>> {
+    let structure = task.structure;
+    let allowed = |placement: &[f64]| task.guided.allows(&Ranks::new(structure, placement));
+    if allowed(found.placement()) {
+        return Some(found);
+    }
+    let averaged: Placement = task.guided.averaged(structure, found.placement());
+    (allowed(&averaged) && is_valid(structure, &averaged)).then(|| Arrangement::new(structure, &averaged))
 }

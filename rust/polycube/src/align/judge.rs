@@ -5,7 +5,7 @@ use crate::layout::{Objective, Rows, count};
 use crate::structure::{Arrangement, Structure};
 
 /// Says whether a complete order is valid, and what it costs.
-pub(super) struct Judge<'a> {
+pub struct Judge<'a> {
     structure: &'a Structure,
     objective: Objective,
     rows: Width,
