@@ -52,7 +52,7 @@ std::string to_string(const Place& place);
 /// What every function of this library throws. `what()` is place, message and remedy in one line.
 class Error : public std::runtime_error {
  public:
-    Error(ErrorKind kind, const Place& place, const std::string& message, const std::string& remedy);
+    Error(ErrorKind kind, const Place& place, const std::string& message, const std::string& remedy = {});
     /// An error without a place.
     Error(ErrorKind kind, const std::string& message, const std::string& remedy = {});
 
