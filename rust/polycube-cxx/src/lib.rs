@@ -20,7 +20,7 @@ use buffers::{example_names, read_labels, write_labels};
 use checking::check;
 use meshing::{default_remesh_options, remesh};
 use options::default_options;
-use results::{Simplified, panic_in_core, simplify};
+use results::{Simplified, corner_pairs, panic_in_core, simplify};
 
 /// The version of the library.
 fn version() -> &'static str {
@@ -339,6 +339,7 @@ mod ffi {
         // For tests.
         fn default_options() -> OptionsData;
         fn default_remesh_options() -> RemeshOptionsData;
+        fn corner_pairs(points: &[i64]) -> Result<Vec<u32>>;
         fn panic_in_core(input: &InputView, stage: &str, observer: &Observer) -> Result<()>;
     }
 }

@@ -118,6 +118,14 @@ impl From<&Report> for ReportData {
     }
 }
 
+/// The pairs that Algorithm 1 makes of corners at these lattice points (x, y, z each): for tests against other triangulations.
+pub fn corner_pairs(points: &[i64]) -> Result<Vec<u32>> {
+    guard(|| {
+        let pairs = polycube::align::neighbours::neighbours(points.as_chunks::<3>().0, &Context::default())?;
+        Ok(pairs.into_iter().flatten().collect())
+    })
+}
+
 /// Simplifies, but panics in the middle of the core as soon as it reports the stage `stage`: for tests of what hosts get to see.
 pub fn panic_in_core(input: &InputView, stage: &str, observer: &Observer) -> Result<()> {
     let owned = guard(|| Owned::new(input))?;
@@ -128,7 +136,6 @@ pub fn panic_in_core(input: &InputView, stage: &str, observer: &Observer) -> Res
     })
 }
 
-/// The points of a mesh and how many blocks meet there.
 impl From<&polycube::remesh::SingularEdge> for SingularData {
     fn from(edge: &polycube::remesh::SingularEdge) -> Self {
         Self { points: flat(&edge.points), valence: edge.valence }
