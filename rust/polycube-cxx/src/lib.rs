@@ -166,6 +166,8 @@ mod ffi {
         after: CountsData,
         rounds: Vec<RoundData>,
         front: Vec<TradeOffData>,
+        has_chosen: bool,
+        chosen: u64,
         has_bound: bool,
         bound: u64,
         proven: bool,
@@ -252,6 +254,7 @@ mod ffi {
 
     struct ViolationData {
         rule: String,
+        in_shape: bool,
         message: String,
         remedy: String,
         place: PlaceData,
