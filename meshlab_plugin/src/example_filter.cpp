@@ -1,6 +1,7 @@
 #include <polycube/example.hpp>
 #include <stdexcept>
 
+#include "filter.h"
 #include "layers.h"
 
 namespace {
