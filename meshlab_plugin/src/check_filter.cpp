@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <stdexcept>
 
 #include "layers.h"
@@ -31,30 +32,47 @@ void CheckFilter::add_parameters(const MeshDocument& document, RichParameterList
                                          "The largest distance of a vertex from the plane of its side."));
 }
 
-void select_faces(const std::vector<std::uint32_t>& chosen, CMeshO& mesh) {
+/// Selects the faces of these cells, which are in order, and no others; gives back how many.
+int select_cells(const std::vector<std::uint32_t>& cells, const Plain& plain, CMeshO& mesh) {
     const std::vector<CFaceO*> faces = live_faces(mesh);
-    for (CFaceO* face : faces) face->ClearS();
-    for (std::uint32_t face : chosen) faces.at(face)->SetS();
+    int count = 0;
+    for (std::size_t f = 0; f < faces.size(); ++f) {
+        const bool chosen = std::binary_search(cells.begin(), cells.end(), plain.cell_of_face[f]);
+        chosen ? faces[f]->SetS() : faces[f]->ClearS();
+        count += chosen;
+    }
+    return count;
+}
+
+/// The lines, with the end left out where there are too many to read.
+std::vector<std::string> shortened(std::vector<std::string> lines) {
+    constexpr std::size_t kMost = 25;
+    if (lines.size() <= kMost) return lines;
+    const std::size_t more = lines.size() - kMost;
+    lines.resize(kMost);
+    lines.push_back("and " + std::to_string(more) + " more like these");
+    return lines;
 }
 
 host::Values CheckFilter::apply(const Call& call) const {
     MeshModel* layer = call.document.mm();
     if (layer == nullptr || layer->cm.fn == 0)
         throw std::invalid_argument("The current layer has no faces. Choose a layer with a closed mesh.");
+    const Plain plain = read(layer->cm);
     polycube::filter::Pair pair;
-    pair.polycube = read(layer->cm);
+    pair.polycube = plain.mesh;
     polycube::filter::Settings settings;
     polycube::Tolerance& tolerance = settings.options.simplify.tolerance;
     tolerance.degrees = call.parameters.getFloat("angle_tolerance");
     tolerance.distance = call.parameters.getAbsPerc("level_tolerance") / layer->cm.bbox.Diag();
     const polycube::filter::Inspection found = polycube::filter::inspect(pair, settings, call.context);
-    select_faces(found.bad_faces, layer->cm);
-    call.log_all(found.log);
+    const std::vector<std::string> lines = shortened(found.log);
 
     host::Values values;
+    values["selected_faces"] = select_cells(found.bad_faces, plain, layer->cm);
+    call.log_all(lines);
     values["valid"] = found.checked.valid();
     values["violations"] = int(found.checked.violations.size());
-    values["selected_faces"] = int(found.bad_faces.size());
     if (const auto& structure = found.checked.structure) {
         values["facets"] = int(structure->facets.size());
         values["corners"] = int(structure->corners.size());

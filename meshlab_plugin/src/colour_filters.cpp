@@ -22,14 +22,14 @@ class ColourFilter : public Filter {
 
 host::Values ColourFilter::apply(const Call& call) const {
     const PairLayers layers = chosen_pair(call);
-    const polycube::filter::Pair pair = read_pair(call, layers);
-    const polycube::filter::Inspection found = polycube::filter::inspect(pair, {}, call.context);
+    const PlainPair plain = read_pair(call, layers);
+    const polycube::filter::Inspection found = polycube::filter::inspect(plain.pair, {}, call.context);
     if (!found.checked.structure)
         throw std::invalid_argument(found.checked.violations.front().message +
                                     ". Run Polycube: Check to see where and what to do.");
     const auto [colours, scalars] = paint_of(*found.checked.structure);
-    paint(pair.polycube, colours, {scalars}, layers.polycube);
-    if (layers.shape != nullptr) paint(pair.shape, colours, {scalars}, *layers.shape);
+    paint(plain.polycube_cell_of_face, colours, {scalars}, layers.polycube);
+    if (layers.shape != nullptr) paint(plain.shape_cell_of_face, colours, {scalars}, *layers.shape);
     const int most = int(*std::max_element(scalars.values.begin(), scalars.values.end()));
     call.log_all(found.log);
     return {{scalars.name + "_max", most}};

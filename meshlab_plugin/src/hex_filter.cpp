@@ -83,14 +83,15 @@ host::Values HexFilter::apply(const Call& call) const {
     const std::string file = checked_file(call.parameters.getSaveFileName("file"));
     const polycube::filter::Settings settings = settings_of(call.parameters);
     const PairLayers layers = chosen_pair(call);
-    const polycube::filter::Pair pair = read_pair(call, layers);
+    const polycube::filter::Pair pair = read_pair(call, layers).pair;
     const polycube::filter::RemeshedPair meshed = polycube::filter::remesh(pair, settings, call.context);
     const polycube::Remeshed& result = meshed.result;
 
     MeshModel& target = layers.target();
     NewLayers added(call.document);
     MeshModel& layer = added.add(result.quads.mesh, target.label() + " hexes", &target);
-    paint(result.quads.mesh, colours_of(result.quads.block_id), {{"block_id", as_scalars(result.quads.block_id)}}, layer);
+    paint(cells_of_written(result.quads.mesh), colours_of(result.quads.block_id),
+          {{"block_id", as_scalars(result.quads.block_id)}}, layer);
     write(file, *result.hexes);
     added.keep();
     host::hide(call.document, layers.polycube);

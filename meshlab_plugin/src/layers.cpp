@@ -1,6 +1,11 @@
 #include "layers.h"
 
+#include <algorithm>
+#include <array>
 #include <cmath>
+#include <map>
+#include <optional>
+#include <set>
 #include <vcg/complex/allocate.h>
 
 namespace {
@@ -58,30 +63,92 @@ void add_quads(const std::vector<std::uint32_t>& cells, CMeshO& mesh) {
     }
 }
 
+using Edge = std::pair<std::uint32_t, std::uint32_t>;
+
+/// The faux edge of each triangle as the number of its first vertex, 0 to 2; nothing unless all have exactly one.
+std::optional<std::vector<int>> faux_edges(const std::vector<const CFaceO*>& faces) {
+    std::vector<int> found;
+    for (const CFaceO* face : faces) {
+        if (face->IsF(0) + face->IsF(1) + face->IsF(2) != 1) return std::nullopt;
+        found.push_back(face->IsF(0) ? 0 : face->IsF(1) ? 1 : 2);
+    }
+    return found;
+}
+
+/// The other triangle at the faux edge of each; nothing unless they pair up.
+std::optional<std::vector<std::uint32_t>> other_halves(const std::vector<std::uint32_t>& triangles,
+                                                       const std::vector<int>& faux) {
+    std::map<Edge, std::uint32_t> by_edge;
+    const auto corner = [&](std::size_t f, int i) { return triangles[3 * f + std::size_t(i % 3)]; };
+    for (std::uint32_t f = 0; f < faux.size(); ++f)
+        if (!by_edge.emplace(Edge(corner(f, faux[f]), corner(f, faux[f] + 1)), f).second) return std::nullopt;
+    std::vector<std::uint32_t> other;
+    for (std::uint32_t f = 0; f < faux.size(); ++f) {
+        const auto found = by_edge.find(Edge(corner(f, faux[f] + 1), corner(f, faux[f])));
+        if (found == by_edge.end()) return std::nullopt;
+        other.push_back(found->second);
+    }
+    return other;
+}
+
+/// Joins the triangles to quadrilaterals if faux edges pair all of them. The lowest vertex comes first, whichever way
+/// the quadrilateral was split.
+void merge_quads(const std::vector<const CFaceO*>& faces, Plain& plain) {
+    const auto faux = faux_edges(faces);
+    if (!faux) return;
+    const std::vector<std::uint32_t> triangles = plain.mesh.cells;
+    const auto other = other_halves(triangles, *faux);
+    if (!other) return;
+    const auto corner = [&](std::size_t f, int i) { return triangles[3 * f + std::size_t(i % 3)]; };
+    plain.mesh.kind = polycube::CellKind::quads;
+    plain.mesh.cells.clear();
+    std::uint32_t next = 0;
+    for (std::uint32_t f = 0; f < faces.size(); ++f) {
+        const std::uint32_t g = (*other)[f];
+        if (g < f) continue;
+        const int i = (*faux)[f];
+        std::array<std::uint32_t, 4> quad = {corner(f, i), corner(g, (*faux)[g] + 2), corner(f, i + 1), corner(f, i + 2)};
+        std::rotate(quad.begin(), std::min_element(quad.begin(), quad.end()), quad.end());
+        plain.mesh.cells.insert(plain.mesh.cells.end(), quad.begin(), quad.end());
+        plain.cell_of_face[f] = plain.cell_of_face[g] = next++;
+    }
+}
+
 }  // namespace
 
 std::vector<const CFaceO*> live_faces(const CMeshO& mesh) { return list_live_faces<const CFaceO>(mesh); }
 std::vector<CFaceO*> live_faces(CMeshO& mesh) { return list_live_faces<CFaceO>(mesh); }
 
-polycube::Mesh read(const CMeshO& mesh) {
+Plain read_triangles(const CMeshO& mesh) {
     const std::vector<std::uint32_t> number = number_vertices(mesh);
-    polycube::Mesh plain;
+    Plain plain;
     for (std::size_t v = 0; v < number.size(); ++v)
         if (number[v] != kUnused)
-            for (int k = 0; k < 3; ++k) plain.points.push_back(mesh.vert[v].cP()[k]);
-    for (const CFaceO* face : live_faces(mesh))
-        for (int i = 0; i < 3; ++i) plain.cells.push_back(number[vcg::tri::Index(mesh, face->cV(i))]);
+            for (int k = 0; k < 3; ++k) plain.mesh.points.push_back(mesh.vert[v].cP()[k]);
+    for (const CFaceO* face : live_faces(mesh)) {
+        plain.cell_of_face.push_back(std::uint32_t(plain.cell_of_face.size()));
+        for (int i = 0; i < 3; ++i) plain.mesh.cells.push_back(number[vcg::tri::Index(mesh, face->cV(i))]);
+    }
     return plain;
 }
 
-std::vector<std::uint32_t> selected_faces(const CMeshO& mesh) {
-    std::vector<std::uint32_t> selected;
-    std::uint32_t number = 0;
-    for (const CFaceO* face : live_faces(mesh)) {
-        if (face->IsS()) selected.push_back(number);
-        ++number;
-    }
-    return selected;
+Plain read(const CMeshO& mesh) {
+    Plain plain = read_triangles(mesh);
+    merge_quads(live_faces(mesh), plain);
+    return plain;
+}
+
+std::vector<std::uint32_t> selected_cells(const CMeshO& mesh, const Plain& plain) {
+    std::set<std::uint32_t> selected;
+    const std::vector<const CFaceO*> faces = live_faces(mesh);
+    for (std::size_t f = 0; f < faces.size(); ++f)
+        if (faces[f]->IsS()) selected.insert(plain.cell_of_face[f]);
+    return {selected.begin(), selected.end()};
+}
+
+bool has_selection(const CMeshO& mesh) {
+    const std::vector<const CFaceO*> faces = live_faces(mesh);
+    return std::any_of(faces.begin(), faces.end(), [](const CFaceO* face) { return face->IsS(); });
 }
 
 void write(const polycube::Mesh& mesh, MeshModel& layer) {
@@ -97,19 +164,24 @@ void write(const polycube::Mesh& mesh, MeshModel& layer) {
     host::update_box_and_normals(layer);
 }
 
-void paint(const polycube::Mesh& mesh, const std::vector<vcg::Color4b>& colours, const std::vector<Scalars>& scalars,
-           MeshModel& layer) {
-    const std::size_t triangles_per_face = mesh.kind == polycube::CellKind::quads ? 2 : 1;
+std::vector<std::uint32_t> cells_of_written(const polycube::Mesh& mesh) {
+    const std::size_t triangles_per_cell = mesh.kind == polycube::CellKind::quads ? 2 : 1;
+    std::vector<std::uint32_t> cells(mesh.cell_count() * triangles_per_cell);
+    for (std::size_t f = 0; f < cells.size(); ++f) cells[f] = std::uint32_t(f / triangles_per_cell);
+    return cells;
+}
+
+void paint(const std::vector<std::uint32_t>& cell_of_face, const std::vector<vcg::Color4b>& colours,
+           const std::vector<Scalars>& scalars, MeshModel& layer) {
     layer.updateDataMask(MeshModel::MM_FACECOLOR | MeshModel::MM_FACEQUALITY);
     const std::vector<CFaceO*> faces = live_faces(layer.cm);
     for (std::size_t f = 0; f < faces.size(); ++f) {
-        faces[f]->C() = colours[f / triangles_per_face];
-        faces[f]->Q() = Scalarm(scalars.front().values[f / triangles_per_face]);
+        faces[f]->C() = colours[cell_of_face[f]];
+        faces[f]->Q() = Scalarm(scalars.front().values[cell_of_face[f]]);
     }
     for (const Scalars& scalar : scalars) {
         auto attribute = Allocator::GetPerFaceAttribute<Scalarm>(layer.cm, scalar.name);
-        for (std::size_t f = 0; f < faces.size(); ++f)
-            attribute[faces[f]] = Scalarm(scalar.values[f / triangles_per_face]);
+        for (std::size_t f = 0; f < faces.size(); ++f) attribute[faces[f]] = Scalarm(scalar.values[cell_of_face[f]]);
     }
 }
 
@@ -137,9 +209,15 @@ vcg::Color4b colour_of_number(std::uint32_t number) {
 
 double mean_edge(const CMeshO& mesh) {
     double sum = 0.0;
-    for (const CFaceO* face : live_faces(mesh))
-        for (int i = 0; i < 3; ++i) sum += vcg::Distance(face->cP0(i), face->cP1(i));
-    return mesh.fn > 0 ? sum / (3.0 * mesh.fn) : 0.0;
+    std::size_t count = 0;
+    for (const CFaceO* face : live_faces(mesh)) {
+        for (int i = 0; i < 3; ++i) {
+            if (face->IsF(i)) continue;
+            sum += vcg::Distance(face->cP0(i), face->cP1(i));
+            ++count;
+        }
+    }
+    return count > 0 ? sum / double(count) : 0.0;
 }
 
 NewLayers::~NewLayers() {

@@ -2,24 +2,39 @@
 /// MeshLab's layers as plain buffers, and plain buffers as new layers.
 #pragma once
 
+#include <cstdint>
 #include <polycube/mesh.hpp>
 #include <string>
 #include <vector>
 
 #include "host.h"
 
-/// The mesh of a layer as the core counts it: vertices and faces that were deleted, and vertices that no face uses, are
-/// left out; the others keep their order.
-polycube::Mesh read(const CMeshO& mesh);
+/// A layer as the core counts it.
+struct Plain {
+    /// Vertices and faces that were deleted, and vertices that no face uses, are left out; the others keep their order.
+    polycube::Mesh mesh;
+    /// The cell of `mesh` that each live face of the layer belongs to, alone or with the other half of a quadrilateral.
+    std::vector<std::uint32_t> cell_of_face;
+};
 
-/// The faces of a layer as `read` counts them.
+/// Reads the triangles of a layer.
+Plain read_triangles(const CMeshO& mesh);
+
+/// Reads a layer; as quadrilaterals if faux edges pair all its triangles. How MeshLab splits a quadrilateral depends on
+/// its form, so that only whole ones are alike on a polycube and its shape.
+Plain read(const CMeshO& mesh);
+
+/// The faces of a layer that are not deleted.
 std::vector<const CFaceO*> live_faces(const CMeshO& mesh);
 std::vector<CFaceO*> live_faces(CMeshO& mesh);
 
-/// The selected faces of a layer, as `read` counts them.
-std::vector<std::uint32_t> selected_faces(const CMeshO& mesh);
+/// The cells of which a face is selected, in order.
+std::vector<std::uint32_t> selected_cells(const CMeshO& mesh, const Plain& plain);
 
-/// One scalar for every face of a plain mesh, kept as a custom attribute of the layer under this name.
+/// Whether a live face is selected.
+bool has_selection(const CMeshO& mesh);
+
+/// One scalar for every cell of a plain mesh, kept as a custom attribute of the layer under this name.
 struct Scalars {
     std::string name;
     std::vector<double> values;
@@ -29,10 +44,13 @@ struct Scalars {
 /// a faux edge between them.
 void write(const polycube::Mesh& mesh, MeshModel& layer);
 
-/// Colours the faces of a layer that holds `mesh` and gives them scalars; the first of these is the one that MeshLab
-/// shows. There is one colour and one scalar for each face of `mesh`.
-void paint(const polycube::Mesh& mesh, const std::vector<vcg::Color4b>& colours, const std::vector<Scalars>& scalars,
-           MeshModel& layer);
+/// What `Plain::cell_of_face` is of a layer that `write` filled.
+std::vector<std::uint32_t> cells_of_written(const polycube::Mesh& mesh);
+
+/// Colours the faces of a layer and gives them scalars; the first of these is the one that MeshLab shows. There is one
+/// colour and one scalar for each cell.
+void paint(const std::vector<std::uint32_t>& cell_of_face, const std::vector<vcg::Color4b>& colours,
+           const std::vector<Scalars>& scalars, MeshModel& layer);
 
 /// Makes the edges of `to` faux that are so in `from`, which has the same faces.
 void copy_faux_edges(const CMeshO& from, CMeshO& to);

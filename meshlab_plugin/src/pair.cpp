@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <stdexcept>
 
 #include "layers.h"
@@ -34,7 +35,11 @@ std::pair<const MeshModel*, const MeshModel*> proposed_pair(const MeshDocument& 
     return {current, twin};
 }
 
-bool has_selection(const MeshModel* layer) { return layer != nullptr && !selected_faces(layer->cm).empty(); }
+bool has_selection(const MeshModel* layer) { return layer != nullptr && has_selection(layer->cm); }
+
+bool shall_lock(const RichParameterList& parameters) {
+    return parameters.hasParameter("lock_selected_faces") && parameters.getBool("lock_selected_faces");
+}
 
 }  // namespace
 
@@ -70,20 +75,28 @@ PairLayers chosen_pair(const Call& call) {
     return {*polycube, shape == polycube ? nullptr : shape};
 }
 
-polycube::filter::Pair read_pair(const Call& call, const PairLayers& layers) {
-    polycube::filter::Pair pair;
-    pair.polycube = read(layers.polycube.cm);
-    if (layers.shape != nullptr) pair.shape = read(layers.shape->cm);
-    if (!call.parameters.hasParameter("lock_selected_faces") || !call.parameters.getBool("lock_selected_faces"))
-        return pair;
-    pair.locked_faces = selected_faces(layers.polycube.cm);
-    if (layers.shape != nullptr) {
-        const std::vector<std::uint32_t> more = selected_faces(layers.shape->cm);
-        pair.locked_faces.insert(pair.locked_faces.end(), more.begin(), more.end());
+PlainPair read_pair(const Call& call, const PairLayers& layers) {
+    const CMeshO& first = layers.polycube.cm;
+    if (layers.shape == nullptr) {
+        Plain polycube = read(first);
+        std::vector<std::uint32_t> locked;
+        if (shall_lock(call.parameters)) locked = selected_cells(first, polycube);
+        return {{std::move(polycube.mesh), {}, {}, std::move(locked)}, std::move(polycube.cell_of_face), {}};
     }
-    std::sort(pair.locked_faces.begin(), pair.locked_faces.end());
-    pair.locked_faces.erase(std::unique(pair.locked_faces.begin(), pair.locked_faces.end()), pair.locked_faces.end());
-    return pair;
+    const CMeshO& second = layers.shape->cm;
+    Plain polycube = read(first), shape = read(second);
+    if (polycube.mesh.kind != shape.mesh.kind) {
+        polycube = read_triangles(first);
+        shape = read_triangles(second);
+    }
+    std::vector<std::uint32_t> locked;
+    if (shall_lock(call.parameters)) {
+        const std::vector<std::uint32_t> here = selected_cells(first, polycube), there = selected_cells(second, shape);
+        std::set_union(here.begin(), here.end(), there.begin(), there.end(), std::back_inserter(locked));
+    }
+    return {{std::move(polycube.mesh), std::move(shape.mesh), {}, std::move(locked)},
+            std::move(polycube.cell_of_face),
+            std::move(shape.cell_of_face)};
 }
 
 void add_counts(const polycube::Report& report, host::Values& values) {

@@ -26,8 +26,17 @@ void add_lock(const MeshDocument& document, RichParameterList& parameters);
 /// The chosen layers. @throws std::invalid_argument if one has no faces.
 PairLayers chosen_pair(const Call& call);
 
-/// The chosen layers as plain buffers; with the selected faces of both if they shall be locked.
-polycube::filter::Pair read_pair(const Call& call, const PairLayers& layers);
+/// The chosen layers as the core takes them.
+struct PlainPair {
+    /// Holds the selected faces of both layers if they shall be locked.
+    polycube::filter::Pair pair;
+    /// See `Plain`; that of the shape is empty without one.
+    std::vector<std::uint32_t> polycube_cell_of_face;
+    std::vector<std::uint32_t> shape_cell_of_face;
+};
+
+/// Reads the chosen layers: as quadrilaterals where both are such.
+PlainPair read_pair(const Call& call, const PairLayers& layers);
 
 /// Counts before and after for PyMeshLab.
 void add_counts(const polycube::Report& report, host::Values& values);

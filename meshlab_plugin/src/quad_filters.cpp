@@ -22,7 +22,7 @@ void add_quad_layer(const Call& call, const PairLayers& layers, const polycube::
     MeshModel& target = layers.target();
     NewLayers added(call.document);
     MeshModel& layer = added.add(quads, target.label() + suffix, &target);
-    paint(quads, colours_of(patch_id), scalars, layer);
+    paint(cells_of_written(quads), colours_of(patch_id), scalars, layer);
     added.keep();
     host::hide(call.document, layers.polycube);
     host::hide(call.document, target);
@@ -58,7 +58,7 @@ class LayoutFilter final : public Filter {
 
 host::Values LayoutFilter::apply(const Call& call) const {
     const PairLayers layers = chosen_pair(call);
-    const polycube::filter::Pair pair = read_pair(call, layers);
+    const polycube::filter::Pair pair = read_pair(call, layers).pair;
     polycube::filter::Settings settings;
     settings.options.surface_only = true;
     const polycube::filter::RemeshedPair result = polycube::filter::remesh(pair, settings, call.context);
@@ -102,7 +102,7 @@ void QuadFilter::add_parameters(const MeshDocument& document, RichParameterList&
 
 host::Values QuadFilter::apply(const Call& call) const {
     const PairLayers layers = chosen_pair(call);
-    const polycube::filter::Pair pair = read_pair(call, layers);
+    const polycube::filter::Pair pair = read_pair(call, layers).pair;
     polycube::filter::Settings settings;
     settings.options.surface_only = true;
     settings.options.size = polycube::Size{polycube::Size::Kind::edge_length, call.parameters.getAbsPerc("edge_length")};

@@ -1,3 +1,5 @@
+#include <stdexcept>
+
 #include "layers.h"
 #include "pair.h"
 
@@ -50,6 +52,8 @@ polycube::filter::Settings settings_of(const RichParameterList& parameters) {
     options.strategy = strategies[parameters.getEnum("strategy")];
     options.objective = objectives[parameters.getEnum("objective")];
     options.simplicity = parameters.getDynamicFloat("simplicity");
+    if (!(*options.simplicity >= 0.0 && *options.simplicity <= 1.0))
+        throw std::invalid_argument("The simplicity must be 0 to 1.");
     if (const double step = parameters.getAbsPerc("lattice_step"); step != 0.0) options.scale = 1.0 / step;
     settings.in_input_units = !parameters.getBool("lattice_units");
     return settings;
@@ -57,14 +61,14 @@ polycube::filter::Settings settings_of(const RichParameterList& parameters) {
 
 host::Values SimplifyFilter::apply(const Call& call) const {
     const PairLayers layers = chosen_pair(call);
-    const polycube::filter::Pair pair = read_pair(call, layers);
+    const polycube::filter::Pair pair = read_pair(call, layers).pair;
     const polycube::filter::SimplifiedPair result =
         polycube::filter::simplify(pair, settings_of(call.parameters), call.context);
 
     NewLayers added(call.document);
     MeshModel& layer = added.add(result.polycube, layers.polycube.label() + " simplified", &layers.polycube);
-    copy_faux_edges(layers.polycube.cm, layer.cm);
-    paint(result.polycube, colours_of(result.patch_of_face),
+    if (result.polycube.kind == polycube::CellKind::triangles) copy_faux_edges(layers.polycube.cm, layer.cm);
+    paint(cells_of_written(result.polycube), colours_of(result.patch_of_face),
           {{"patch_id", as_scalars(result.patch_of_face)},
            {"block_id", as_scalars(result.block_of_face)},
            {"label", as_scalars(result.label_of_face)}},

@@ -28,13 +28,16 @@ class Mesh:
         self.faces = [list(map(int, face)) for face in faces]
 
     def write(self, path):
-        lines = ["v " + " ".join(repr(float(x)) for x in point) for point in self.points]
-        lines += ["f " + " ".join(str(v + 1) for v in face) for face in self.faces]
+        """As OFF: the OBJ reader of MeshLab 2020.09 stops on sound files."""
+        lines = ["OFF", f"{len(self.points)} {len(self.faces)} 0"]
+        lines += [" ".join(repr(float(x)) for x in point) for point in self.points]
+        lines += [" ".join(map(str, [len(face), *face])) for face in self.faces]
         Path(path).write_text("\n".join(lines) + "\n")
         return path
 
     @staticmethod
     def read(path):
+        """From OBJ."""
         rows = [line.split() for line in Path(path).read_text().splitlines()]
         points = [row[1:4] for row in rows if row and row[0] == "v"]
         faces = [[int(v.split("/")[0]) - 1 for v in row[1:]] for row in rows if row and row[0] == "f"]
@@ -56,12 +59,22 @@ def command():
 
 
 @pytest.fixture(scope="session")
+def quad_pair(command, tmp_path_factory):
+    """The ring as the command makes it, in quadrilaterals and single precision: a polycube and its shape."""
+    required("POLYCUBE_COMMAND")
+    folder = command(tmp_path_factory.mktemp("demo"), "demo")
+    found = [Mesh.read(next(folder.rglob(f"ring.{name}.obj"))) for name in ("polycube", "shape")]
+    return [Mesh(numpy.float32(mesh.points), mesh.faces) for mesh in found]
+
+
+@pytest.fixture(scope="session")
 def pair(command, tmp_path_factory):
-    """The cube with spikes as the command makes it, in single precision: a polycube and its shape."""
+    """The cube with spikes as the command makes it, in triangles and single precision: a polycube and its shape."""
     required("POLYCUBE_COMMAND")
     folder = command(tmp_path_factory.mktemp("demo"), "demo")
     found = []
     for name in ("polycube", "shape"):
         mesh = Mesh.read(next(folder.rglob(f"*spikes*.{name}.obj")))
-        found.append(Mesh(numpy.float32(mesh.points), mesh.faces))
+        triangles = [half for a, b, c, d in mesh.faces for half in ([a, b, c], [a, c, d])]
+        found.append(Mesh(numpy.float32(mesh.points), triangles))
     return found

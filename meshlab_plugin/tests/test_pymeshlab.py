@@ -66,6 +66,12 @@ def simplified(pair, **parameters):
     return layers, values
 
 
+def result(pair):
+    """The vertices of the simplified polycube in lattice units."""
+    layers, _ = simplified(pair, lattice_units=True)
+    return layers.current_mesh().vertex_matrix()
+
+
 def test_all_filters_have_their_names():
     assert FILTERS <= set(ml.filter_list())
 
@@ -92,8 +98,8 @@ def test_a_first_run_needs_no_settings():
 
 @pytest.mark.parametrize("strategy", ["Best", "Paper"])
 def test_simplify_gives_what_the_command_gives(pair, command, tmp_path, strategy):
-    polycube, shape = (mesh.write(tmp_path / f"{name}.obj") for mesh, name in zip(pair, ("polycube", "shape")))
-    out = command(tmp_path / "out", "simplify", polycube, "--shape", shape, "--strategy", strategy.lower())
+    polycube, shape = (mesh.write(tmp_path / f"{name}.off") for mesh, name in zip(pair, ("polycube", "shape")))
+    out = command(tmp_path / "out", "simplify", polycube, "--format", "obj", "--shape", shape, "--strategy", strategy.lower())
     layers, values = simplified(pair, strategy=strategy, lattice_units=True)
     expected, found = Mesh.read(out / "polycube.obj"), layers.current_mesh()
     assert (found.vertex_matrix() == expected.points).all()
@@ -144,8 +150,7 @@ def test_the_pair_is_found_whichever_layer_is_current(pair):
     layers = document(*pair)
     assert layers.current_mesh_id() == 1, "the shape is current"
     layers.apply_filter("generate_polycube_simplified", lattice_units=True)
-    direct = simplified(pair, lattice_units=True)[0]
-    assert (layers.current_mesh().vertex_matrix() == direct.current_mesh().vertex_matrix()).all()
+    assert (layers.current_mesh().vertex_matrix() == result(pair)).all()
 
 
 def test_selected_faces_stay_where_they_are(pair):
@@ -153,7 +158,7 @@ def test_selected_faces_stay_where_they_are(pair):
     corners = polycube.points[numpy.array(polycube.faces)]
     flat = corners.max(axis=1) - corners.min(axis=1) < 1e-6
     moved = {}
-    free = simplified(pair, lattice_units=True)[0].current_mesh().vertex_matrix()
+    free = result(pair)
     faces = [face for face in range(0, len(polycube.faces), 7) if flat[face].sum() == 1]
     axis = {face: int(numpy.argmax(flat[face])) for face in faces}
     for face in faces:
@@ -171,9 +176,9 @@ def test_selected_faces_stay_where_they_are(pair):
 
 
 def test_layout_and_quads_give_what_the_command_gives(pair, command, tmp_path):
-    polycube, shape = (mesh.write(tmp_path / f"{name}.obj") for mesh, name in zip(pair, ("polycube", "shape")))
-    options = ["--surface-only", "--edge-length", 2]
-    out = command(tmp_path / "out", "remesh", shape, "--polycube", polycube, *options)
+    polycube, shape = (mesh.write(tmp_path / f"{name}.off") for mesh, name in zip(pair, ("polycube", "shape")))
+    options = ["remesh", shape, "--polycube", polycube, "--surface-only"]
+    out = command(tmp_path / "out", *options, "--edge-length", 2)
     layers = document(*pair)
     length = ml.PureValue(2.0)
     values = layers.apply_filter("generate_polycube_quad_remesh", polycube=0, shape=1, edge_length=length)
@@ -183,8 +188,9 @@ def test_layout_and_quads_give_what_the_command_gives(pair, command, tmp_path):
     assert values["quads"] == len(expected.faces)
     layers.set_current_mesh(1)
     layers.apply_filter("generate_polycube_coarse_quad_layout", polycube=0, shape=1)
-    expected, found = Mesh.read(out / "layout.obj"), layers.current_mesh()
-    assert numpy.abs(found.vertex_matrix() - expected.points).max() < 1e-9
+    expected = Mesh.read(command(tmp_path / "coarse", *options) / "layout.obj")
+    found = layers.current_mesh()
+    assert (found.vertex_matrix() == expected.points).all()
     assert quads(found) == expected.faces
 
 
@@ -214,7 +220,7 @@ def test_quads_have_patches_and_quality(pair):
 
 
 def test_hexahedra_are_the_files_that_the_command_writes(pair, command, tmp_path):
-    polycube, shape = (mesh.write(tmp_path / f"{name}.obj") for mesh, name in zip(pair, ("polycube", "shape")))
+    polycube, shape = (mesh.write(tmp_path / f"{name}.off") for mesh, name in zip(pair, ("polycube", "shape")))
     out = command(tmp_path / "out", "remesh", shape, "--polycube", polycube, "--hexes", 3000)
     for name in ("hexes.vtu", "hexes.mesh"):
         layers = document(*pair)
@@ -264,9 +270,26 @@ def test_colours_by_label_and_block(pair):
     assert (layers.mesh(0).face_scalar_array() == blocks).all() and blocks.max() == values["block_id_max"]
 
 
+def test_quadrilaterals_stay_what_they_are(quad_pair, command, tmp_path):
+    polycube, shape = (mesh.write(tmp_path / f"{name}.off") for mesh, name in zip(quad_pair, ("polycube", "shape")))
+    out = command(tmp_path / "out", "simplify", polycube, "--format", "obj", "--shape", shape)
+    layers = ml.MeshSet()
+    layers.load_new_mesh(str(shape))
+    layers.load_new_mesh(str(polycube))
+    layers.apply_filter("generate_polycube_simplified", lattice_units=True)
+    found, expected = layers.current_mesh(), Mesh.read(out / "polycube.obj")
+    assert numpy.abs(found.vertex_matrix() - expected.points).max() < 1e-6
+    assert [set(face) for face in quads(found)] == [set(face) for face in expected.faces]
+    layers.apply_filter("set_polycube_color_by_label_per_face", polycube=1, shape=0)
+    colours = [layers.mesh(number).face_color_matrix() for number in (0, 1)]
+    assert len(numpy.unique(colours[0], axis=0)) == 6
+    corners = [frozenset(face) for face in layers.mesh(0).face_matrix().tolist()]
+    assert corners != [frozenset(face) for face in layers.mesh(1).face_matrix().tolist()], "split in different ways"
+
+
 def test_unused_and_deleted_vertices_do_no_harm(pair):
     polycube, shape = pair
-    clean = simplified(pair, lattice_units=True)[0].current_mesh().vertex_matrix()
+    clean = result(pair)
     extra = numpy.vstack([[[9, 9, 9]], polycube.points])
     layers = document(shape, Mesh(extra, [[v + 1 for v in face] for face in polycube.faces]))
     layers.apply_filter("generate_polycube_simplified", polycube=1, shape=0, lattice_units=True)
@@ -299,7 +322,7 @@ def test_a_foreign_shape_is_refused(pair, name, tmp_path):
 def test_points_alone_are_refused(name):
     layers = ml.MeshSet()
     layers.add_mesh(ml.Mesh(numpy.eye(3)))
-    fails(layers, "", name)
+    fails(layers, "(?i)faces", name)
 
 
 def test_an_open_mesh_is_refused_with_the_place(pair):
