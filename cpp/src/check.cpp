@@ -8,6 +8,7 @@ namespace {
 Violation violation(const bridge::ViolationData& data) {
     Violation violation;
     violation.rule = std::string(data.rule);
+    violation.in_shape = data.in_shape;
     violation.message = std::string(data.message);
     violation.remedy = std::string(data.remedy);
     violation.place = {static_cast<Element>(data.place.element), data.place.index, data.place.second};

@@ -36,6 +36,7 @@ Report report(const bridge::ReportData& data) {
     if (data.valid) report.after = counts(data.after);
     for (const auto& r : data.rounds) report.rounds.push_back({r.lambda, r.pairs, r.alignments, counts(r.counts)});
     for (const auto& t : data.front) report.front.push_back({t.count, t.displacement});
+    if (data.has_chosen) report.chosen = data.chosen;
     if (data.has_bound) report.bound = LowerBound{data.bound, data.proven};
     report.seconds = {data.seconds.structure, data.seconds.align, data.seconds.morph, data.seconds.total};
     report.max_displacement = data.max_displacement;

@@ -13,10 +13,11 @@ namespace polycube {
 
 /// One reason why a mesh is not a polycube.
 struct Violation {
-    std::string rule;     ///< A short name of the rule broken, such as "open_edge"; those of `polycube validate`.
-    std::string message;  ///< What is wrong.
-    std::string remedy;   ///< How to mend it.
-    Place place;          ///< The element.
+    std::string rule;       ///< A short name of the rule broken, such as "open_edge"; those of `polycube validate`.
+    bool in_shape = false;  ///< Whether the shape is concerned, not the polycube.
+    std::string message;    ///< What is wrong.
+    std::string remedy;     ///< How to mend it.
+    Place place;            ///< The element.
     std::optional<std::array<double, 3>> at;  ///< The middle of the element, in units of the mesh.
     std::vector<std::uint32_t> faces;  ///< The boundary faces concerned, to select and show; empty for inner elements.
 };
@@ -71,7 +72,8 @@ struct Structure {
 
 /// What a check found.
 struct Checked {
-    /// Every violation of the first rule that does not hold; empty for a valid polycube.
+    /// Every violation of the first rule that does not hold, then all elements that are turned over, as `polycube
+    /// validate` lists them; empty for a valid polycube and a shape that goes with it.
     std::vector<Violation> violations;
     /// Nothing when there are violations.
     std::optional<Structure> structure;
@@ -81,8 +83,7 @@ struct Checked {
 
 /// Checks whether a mesh is a valid polycube and reads its structure. A broken mesh is a result, not an exception.
 ///
-/// @throws Error mesh for buffers that are no mesh (an index out of range); mismatch when shape or labels do not fit;
-/// cancelled.
+/// @throws Error mesh for buffers that are no mesh (an index out of range); mismatch when labels do not fit; cancelled.
 Checked check(const Input& input, const Tolerance& tolerance = {}, const Context& context = {});
 
 }  // namespace polycube

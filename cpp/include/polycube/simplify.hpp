@@ -92,7 +92,8 @@ struct Options {
     std::optional<double> simplicity;
     /// The farthest that `Strategy::best` may move a corner, in units of the polycube.
     std::optional<double> max_displacement;
-    /// The largest distortion of the map to accept, at least 1.
+    /// The largest mean angle distortion of the map from the shape to the result to accept, at least 1: of the front,
+    /// the point with the fewest blocks that keeps it is taken.
     std::optional<double> max_distortion;
     Tolerance tolerance;
     Guides guides;
@@ -168,9 +169,10 @@ struct Report {
     std::vector<Round> rounds;    ///< The rounds of Algorithm 1.
     std::vector<TradeOff>
         front;  ///< Trade-offs met, from the fewest blocks on: the points that `Simplified::at` chooses from.
-    std::optional<LowerBound> bound;              ///< What `Strategy::best` could prove.
-    Seconds seconds;                              ///< Time spent.
-    double max_displacement = 0.0;                ///< The farthest that a corner moved, in units of the input.
+    std::optional<std::uint64_t> chosen;  ///< Which point of the front the result is, from 0; nothing if it is none.
+    std::optional<LowerBound> bound;      ///< What `Strategy::best` could prove.
+    Seconds seconds;                      ///< Time spent.
+    double max_displacement = 0.0;        ///< The farthest that a corner moved, in units of the input.
     std::vector<std::uint32_t> flipped_cells;     ///< Cells of a volume that the morph turned over.
     std::vector<std::uint32_t> flipped_faces;     ///< Boundary faces that it turned over.
     double deviation_degrees = 0.0;               ///< How far faces of the input are off their axes.

@@ -5,12 +5,12 @@ use crate::ffi::*;
 use crate::input::Owned;
 use crate::options::tolerance;
 use crate::run::run;
+use polycube::Place;
 use polycube::layout::{Pieces, count};
-use polycube::map::flipped;
-use polycube::mesh::{Face, Mesh, Point};
-use polycube::simplify::Input;
-use polycube::structure::{Arrangement, Corner, Edge, Polycube, Violation};
-use polycube::{Error, ErrorKind, Place};
+use polycube::mesh::{Face, Mesh};
+use polycube::simplify::{Input, read_structure};
+use polycube::structure::{Arrangement, Corner, Edge, Polycube};
+use polycube::validate::{Finding, Subject, validate};
 
 /// Lists the violations of `polycube validate`, or describes the structure.
 pub fn check(input: &InputView, data: &ToleranceData, observer: &Observer) -> Result<CheckedData> {
@@ -18,70 +18,29 @@ pub fn check(input: &InputView, data: &ToleranceData, observer: &Observer) -> Re
     run(observer, |context| {
         context.stage("structure", 0.0, 1.0).tick(0.0)?;
         let input = owned.input();
-        check_fit(&input)?;
-        let checked = match Polycube::new(input.polycube, input.labels, &tolerance) {
-            Err(violations) => broken(&violations, input.polycube),
-            Ok(polycube) => read(&polycube, input.polycube),
-        };
+        let findings = validate(&input, &tolerance);
+        let mut checked = CheckedData { violations: violations(findings, &input), structure: StructureData::default() };
+        if checked.violations.is_empty() {
+            let polycube = read_structure(&input, &tolerance)?;
+            checked.structure = structure(&polycube, input.polycube);
+        }
         context.tick(1.0)?;
         Ok(checked)
     })
 }
 
-fn check_fit(input: &Input) -> polycube::Result<()> {
-    let Some(shape) = input.shape else { return Ok(()) };
-    if shape.cells == input.polycube.cells && shape.points.len() == input.polycube.points.len() {
-        return Ok(());
-    }
-    Err(Error::new(ErrorKind::Mismatch, "shape and polycube do not have the same vertices and cells")
-        .remedy("give the pair that one deformation connects, with the same numbering"))
-}
-
-fn read(polycube: &Polycube, mesh: &Mesh) -> CheckedData {
-    let mut violations = polycube.overlaps(&mesh.points);
-    let labels: Vec<i8> = polycube.labels().map(|l| l.index() as i8).collect();
-    let turned = flipped(mesh, &labels).unwrap_or_default();
-    violations.extend(turned.cells.iter().map(|&cell| Violation::InvertedCell { cell }));
-    let mut checked = broken(&violations, mesh);
-    checked.violations.extend(turned.faces.iter().map(|&face| flipped_face(face, mesh)));
-    if checked.violations.is_empty() {
-        checked.structure = structure(polycube, mesh);
-    }
-    checked
-}
-
-fn broken(violations: &[Violation], mesh: &Mesh) -> CheckedData {
-    let faces = mesh.cells.boundary().unwrap_or_default();
-    let violations = violations.iter().map(|v| violation(v, mesh, &faces)).collect();
-    CheckedData { violations, structure: StructureData::default() }
-}
-
-fn violation(violation: &Violation, mesh: &Mesh, faces: &[Face]) -> ViolationData {
-    let error = Error::from(violation.clone());
-    let mut around = error.place.map_or_else(Vec::new, |place| faces_at(place, faces));
-    if let Violation::SelfOverlap { other, .. } = violation {
-        around.push(*other);
-    }
-    ViolationData {
-        rule: violation.rule().into(),
-        message: error.message,
-        remedy: error.remedy,
-        place: place(error.place),
-        at: error.place.and_then(|p| middle(p, mesh, faces)).map_or_else(Vec::new, Vec::from),
-        faces: around,
-    }
-}
-
-fn flipped_face(face: u32, mesh: &Mesh) -> ViolationData {
-    let faces = mesh.cells.boundary().unwrap_or_default();
-    ViolationData {
-        rule: "flipped_face".into(),
-        message: "the face looks away from the side of its label".into(),
-        remedy: "untangle the polycube map, or correct the label".into(),
-        place: place(Some(Place::Face(face))),
-        at: middle(Place::Face(face), mesh, &faces).map_or_else(Vec::new, Vec::from),
-        faces: vec![face],
-    }
+fn violations(findings: Vec<Finding>, input: &Input) -> Vec<ViolationData> {
+    let faces = input.polycube.cells.boundary().unwrap_or_default();
+    let violation = |finding: Finding| ViolationData {
+        rule: finding.rule.into(),
+        in_shape: finding.mesh == Subject::Shape,
+        message: finding.message,
+        remedy: finding.remedy,
+        place: place(finding.element),
+        at: finding.at.map_or_else(Vec::new, Vec::from),
+        faces: finding.element.map_or_else(Vec::new, |place| faces_at(place, &faces)),
+    };
+    findings.into_iter().map(violation).collect()
 }
 
 fn place(place: Option<Place>) -> PlaceData {
@@ -101,19 +60,6 @@ fn faces_at(place: Place, faces: &[Face]) -> Vec<u32> {
         Place::Face(i) => vec![i],
         Place::Cell(_) | Place::PolycubeEdge(_) | Place::Facet(_) | Place::Line(_) => Vec::new(),
     }
-}
-
-/// The mean of an element's vertices.
-fn middle(place: Place, mesh: &Mesh, faces: &[Face]) -> Option<[f64; 3]> {
-    let vertices = match place {
-        Place::Vertex(v) => vec![v],
-        Place::Edge(a, b) => vec![a, b],
-        Place::Face(i) => faces.get(i as usize)?.vertices().to_vec(),
-        Place::Cell(i) if (i as usize) < mesh.cells.len() => mesh.cells.cell(i as usize).to_vec(),
-        Place::Cell(_) | Place::PolycubeEdge(_) | Place::Facet(_) | Place::Line(_) => return None,
-    };
-    let points: Vec<&Point> = vertices.iter().map(|&v| mesh.points.get(v as usize)).collect::<Option<_>>()?;
-    Some([0, 1, 2].map(|axis| points.iter().map(|p| p[axis]).sum::<f64>() / points.len() as f64))
 }
 
 fn structure(polycube: &Polycube, mesh: &Mesh) -> StructureData {

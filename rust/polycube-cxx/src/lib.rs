@@ -22,7 +22,7 @@ use buffers::{example_names, read_labels, write_labels};
 use checking::check;
 use meshing::{default_remesh_options, remesh};
 use options::default_options;
-use results::{Simplified, panic_in_core, simplify};
+use results::{Simplified, corner_pairs, panic_in_core, simplify};
 
 /// The version of the library.
 fn version() -> &'static str {
@@ -168,6 +168,8 @@ mod ffi {
         after: CountsData,
         rounds: Vec<RoundData>,
         front: Vec<TradeOffData>,
+        has_chosen: bool,
+        chosen: u64,
         has_bound: bool,
         bound: u64,
         proven: bool,
@@ -254,6 +256,7 @@ mod ffi {
 
     struct ViolationData {
         rule: String,
+        in_shape: bool,
         message: String,
         remedy: String,
         place: PlaceData,
@@ -342,6 +345,7 @@ mod ffi {
         // For tests.
         fn default_options() -> OptionsData;
         fn default_remesh_options() -> RemeshOptionsData;
+        fn corner_pairs(points: &[i64]) -> Result<Vec<u32>>;
         fn panic_in_core(input: &InputView, stage: &str, observer: &Observer) -> Result<()>;
     }
 }

@@ -1,11 +1,11 @@
 //! Options of the façade, there and back.
 
 use crate::ffi::{GuidesData, OptionsData, Real, ToleranceData};
-use polycube::align::{Effort, SolverKind, Strategy};
+use polycube::align::{Effort, Guides, SolverKind, Strategy, Symmetry};
 use polycube::layout::Objective;
-use polycube::simplify::{Input, Options};
+use polycube::simplify::{Input, Options, read_structure};
 use polycube::structure::Tolerance;
-use polycube::{Error, ErrorKind, Result};
+use polycube::{Error, ErrorKind, Place, Result};
 use std::ops::RangeInclusive;
 use std::time::Duration;
 
@@ -43,7 +43,7 @@ pub fn options(data: &OptionsData, input: &Input) -> Result<Options> {
         time_limit: data.time_limit.get().map(seconds).transpose()?,
     };
     let objective = data.has_objective.then(|| pick(&OBJECTIVES, data.objective, "objective")).transpose()?;
-    check_guides(&data.guides, input)?;
+    let tolerance = tolerance(&data.tolerance)?;
     Ok(Options {
         strategy: pick(&STRATEGIES, data.strategy, "strategy")?,
         scale: data.scale.get(),
@@ -53,7 +53,9 @@ pub fn options(data: &OptionsData, input: &Input) -> Result<Options> {
         effort,
         simplicity: data.simplicity.get().map(|x| within("simplicity", x, 0.0..=1.0)).transpose()?,
         max_displacement: data.max_displacement.get().map(|x| positive("max_displacement", x)).transpose()?,
-        tolerance: tolerance(&data.tolerance)?,
+        max_distortion: data.max_distortion.get().map(|x| within("max_distortion", x, 1.0..=f64::MAX)).transpose()?,
+        guides: guides(&data.guides, input, &tolerance)?,
+        tolerance,
     })
 }
 
@@ -69,8 +71,28 @@ pub fn tolerance(data: &ToleranceData) -> Result<Tolerance> {
     })
 }
 
-fn check_guides(_data: &GuidesData, _input: &Input) -> Result<()> {
-    Ok(())
+fn guides(data: &GuidesData, input: &Input, tolerance: &Tolerance) -> Result<Guides> {
+    let indices = |list: &[u32]| list.iter().map(|&i| i as usize).collect();
+    let ends = data.together_ends.iter();
+    let starts = std::iter::once(&0).chain(ends.clone());
+    let mut guides = Guides {
+        fixed: indices(&data.fixed),
+        together: starts.zip(ends).map(|(&from, &to)| indices(&data.together[from..to])).collect(),
+        apart: data.apart.iter().map(|p| [p.first as usize, p.second as usize]).collect(),
+        symmetry: data.symmetry.iter().map(|s| Symmetry { axis: s.axis as usize, at: s.at }).collect(),
+    };
+    if data.fixed_faces.is_empty() {
+        return Ok(guides);
+    }
+    let polycube = read_structure(input, tolerance)?;
+    let faces = polycube.facet_of_face.len();
+    if let Some(&face) = data.fixed_faces.iter().find(|&&f| f as usize >= faces) {
+        let message = format!("there are only {faces} boundary faces to lock");
+        return Err(Error::new(ErrorKind::Option, message).at(Place::Face(face)));
+    }
+    let fixed: Vec<usize> = indices(&data.fixed_faces);
+    guides.fix_faces(&polycube, &fixed);
+    Ok(guides)
 }
 
 fn pick<T: Copy>(all: &[T], index: u8, what: &str) -> Result<T> {
@@ -119,7 +141,7 @@ pub fn defaults(options: &Options) -> OptionsData {
         time_limit: options.effort.time_limit.map(|t| t.as_secs_f64()).into(),
         simplicity: options.simplicity.into(),
         max_displacement: options.max_displacement.into(),
-        max_distortion: None.into(),
+        max_distortion: options.max_distortion.into(),
         tolerance: options.tolerance.into(),
         guides: GuidesData {
             fixed: Vec::new(),

@@ -28,7 +28,7 @@ impl Simplified {
     /// Everything there is to know.
     pub fn data(&self) -> Result<SimplifiedData> {
         guard(|| {
-            let core::Simplified { input, polycube, levels, report } = &self.0;
+            let core::Simplified { input, polycube, levels, report, .. } = &self.0;
             let placement: Vec<f64> = levels.iter().map(|&x| x as f64).collect();
             let pieces = polycube.as_ref().map(|mesh| Pieces::of_faces(input, &mesh.points, &placement));
             let Pieces { patch_of_face, block_of_face } = pieces.unwrap_or_default();
@@ -46,9 +46,9 @@ impl Simplified {
     }
 
     /// See `Simplified::at` of the core.
-    pub fn at(&self, input: &InputView, _simplicity: f64, observer: &Observer) -> Result<Box<Self>> {
+    pub fn at(&self, input: &InputView, simplicity: f64, observer: &Observer) -> Result<Box<Self>> {
         let owned = guard(|| Owned::new(input))?;
-        let result = run(observer, |context| self.0.rescaled(&owned.input(), self.0.report.scale, context))?;
+        let result = run(observer, |context| self.0.at(&owned.input(), simplicity, context))?;
         Ok(Box::new(Self(result)))
     }
 
@@ -103,6 +103,8 @@ impl From<&Report> for ReportData {
             after: report.after.as_ref().map(CountsData::from).unwrap_or_default(),
             rounds: report.rounds.iter().map(round).collect(),
             front: front.collect(),
+            has_chosen: report.chosen.is_some(),
+            chosen: report.chosen.unwrap_or_default() as u64,
             has_bound: report.bound.is_some(),
             bound: report.bound.map_or(0, |b| b.count as u64),
             proven: report.bound.is_some_and(|b| b.proven),
@@ -118,6 +120,14 @@ impl From<&Report> for ReportData {
     }
 }
 
+/// The pairs that Algorithm 1 makes of corners at these lattice points (x, y, z each): for tests against other triangulations.
+pub fn corner_pairs(points: &[i64]) -> Result<Vec<u32>> {
+    guard(|| {
+        let pairs = polycube::align::neighbours::neighbours(points.as_chunks::<3>().0, &Context::default())?;
+        Ok(pairs.into_iter().flatten().collect())
+    })
+}
+
 /// Simplifies, but panics in the middle of the core as soon as it reports the stage `stage`: for tests of what hosts get to see.
 pub fn panic_in_core(input: &InputView, stage: &str, observer: &Observer) -> Result<()> {
     let owned = guard(|| Owned::new(input))?;
@@ -128,7 +138,6 @@ pub fn panic_in_core(input: &InputView, stage: &str, observer: &Observer) -> Res
     })
 }
 
-/// The points of a mesh and how many blocks meet there.
 impl From<&polycube::remesh::SingularEdge> for SingularData {
     fn from(edge: &polycube::remesh::SingularEdge) -> Self {
         Self { points: flat(&edge.points), valence: edge.valence }
