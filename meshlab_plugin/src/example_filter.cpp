@@ -16,6 +16,8 @@ class ExampleFilter final : public Filter {
                "<b>Polycube: Simplify</b> or <b>Polycube: Quad Remesh</b> to it. The polycube is shown, the shape is "
                "hidden.";
     }
+    /// MeshLab opens only the submenu of creation while there is no layer.
+    int classes() const override { return host::FilterPlugin::Remeshing | host::FilterPlugin::MeshCreation; }
     host::Arity arity() const override { return host::FilterPlugin::NONE; }
     int changes() const override { return MeshModel::MM_GEOMETRY_AND_TOPOLOGY_CHANGE; }
     void add_parameters(const MeshDocument& document, RichParameterList& parameters) const override;
