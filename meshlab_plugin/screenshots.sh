@@ -23,14 +23,57 @@ sleep 1
 meshlab=$!
 trap 'kill $meshlab $manager $screen 2>/dev/null; rm -rf "$work"' EXIT
 
-wait_for() {
+# The window with this in its name, once it is there.
+window() {
     for _ in $(seq 60); do
-        xdotool search --onlyvisible --name "$1" >/dev/null 2>&1 && return
+        xdotool search --onlyvisible --name "$1" 2>/dev/null | head -1 | grep . && return
         sleep 1
     done
     echo "no window called $1" >&2
     return 1
 }
-take() {
-    import -window root -colors 128 "PNG8:$docs/$1.png"
+# Opens the dialog of a filter by MeshLab's search field.
+open_filter() {
+    xdotool windowactivate "$main"
+    sleep 1
+    xdotool key ctrl+f
+    sleep 1
+    xdotool type --delay 60 "$1"
+    sleep 1
+    xdotool key Down
+    sleep 1
+    xdotool key Return
+    dialog=$(window "$1")
+    sleep 2
 }
+# Presses the dialog's lower right button, Apply, and closes the dialog.
+apply_filter() {
+    eval "$(xdotool getwindowgeometry --shell "$dialog")"
+    xdotool mousemove --window "$dialog" $((WIDTH * 3 / 4)) $((HEIGHT - 20)) click 1
+    sleep "$1"
+    xdotool mousemove --window "$dialog" $((WIDTH / 4)) $((HEIGHT - 20)) click 1
+    sleep 2
+}
+# Saves the screen, or one window, as a small picture.
+take() {
+    import -window "${2:-root}" +dither -colors 64 "PNG8:$docs/$1.png"
+}
+
+main=$(window "MeshLab 2020")
+sleep 3
+open_filter "Polycube: Example"
+apply_filter 5
+xdotool mousemove 121 29 click 1
+sleep 1
+xdotool key --delay 200 Down Down Down Down Down Down Right
+sleep 1
+take meshlab-menu
+xdotool key --delay 200 Escape Escape Escape
+open_filter "Polycube: Quad Remesh"
+take meshlab-dialog "$dialog"
+apply_filter 20
+xdotool mousemove 430 460 mousedown 1
+for _ in $(seq 20); do xdotool mousemove_relative 4 4; done
+xdotool mouseup 1
+sleep 2
+take meshlab-result

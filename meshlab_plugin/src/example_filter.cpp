@@ -16,8 +16,8 @@ class ExampleFilter final : public Filter {
                "<b>Polycube: Simplify</b> or <b>Polycube: Quad Remesh</b> to it. The polycube is shown, the shape is "
                "hidden.";
     }
-    /// MeshLab opens only the submenu of creation while there is no layer.
-    int classes() const override { return host::FilterPlugin::Remeshing | host::FilterPlugin::MeshCreation; }
+    /// While there is no layer, MeshLab opens this submenu only, and nothing in it that is in another one, too.
+    host::FilterPlugin::FilterClass submenu() const override { return host::FilterPlugin::MeshCreation; }
     host::Arity arity() const override { return host::FilterPlugin::NONE; }
     int changes() const override { return MeshModel::MM_GEOMETRY_AND_TOPOLOGY_CHANGE; }
     void add_parameters(const MeshDocument& document, RichParameterList& parameters) const override;
@@ -41,7 +41,7 @@ host::Values ExampleFilter::apply(const Call& call) const {
     NewLayers added(call.document);
     MeshModel& hidden = added.add(shape, label + " shape", nullptr);
     added.add(polycube, label + " polycube", nullptr);
-    host::hide(call.document, hidden);
+    call.document.setVisible(hidden.id(), false);
     added.keep();
     call.log("A polycube and its shape (hidden), " + std::to_string(polycube.cell_count()) +
              " faces each. Now apply Polycube: Simplify or Polycube: Quad Remesh.");

@@ -37,8 +37,8 @@ class Filter {
     virtual QString python_name() const = 0;
     /// Help, as HTML without the citation.
     virtual QString help() const = 0;
-    /// The submenus it is in.
-    virtual int classes() const { return host::FilterPlugin::Remeshing; }
+    /// The submenu it is in.
+    virtual host::FilterPlugin::FilterClass submenu() const { return host::FilterPlugin::Remeshing; }
     /// Which layers it works on.
     virtual host::Arity arity() const { return host::FilterPlugin::FIXED; }
     /// What it changes, as bits of `MeshModel::MeshElement`.

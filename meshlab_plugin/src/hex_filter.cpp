@@ -94,8 +94,8 @@ host::Values HexFilter::apply(const Call& call) const {
           {{"block_id", as_scalars(result.quads.block_id)}}, layer);
     write(file, *result.hexes);
     added.keep();
-    host::hide(call.document, layers.polycube);
-    host::hide(call.document, target);
+    call.document.setVisible(layers.polycube.id(), false);
+    call.document.setVisible(target.id(), false);
     call.log_all(meshed.log);
     call.log("written to " + file);
 

@@ -84,15 +84,6 @@ inline void remove_layer(MeshDocument& document, MeshModel* layer) {
 #endif
 }
 
-inline void hide(MeshDocument& document, MeshModel& layer) {
-#if POLYCUBE_MESHLAB_2020
-    (void)document;
-    layer.visible = false;
-#else
-    document.setVisible(layer.id(), false);
-#endif
-}
-
 inline void update_box_and_normals(MeshModel& layer) {
 #if POLYCUBE_MESHLAB_2020
     layer.UpdateBoxAndNormals();

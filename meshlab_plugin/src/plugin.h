@@ -28,14 +28,14 @@ class PolycubePlugin : public QObject, public host::FilterPlugin {
     int postCondition(host::Action* action) const override;
 
 #if POLYCUBE_MESHLAB_2020
-    FilterClass getClass(QAction* action) override { return FilterClass(filter(action).classes()); }
+    FilterClass getClass(QAction* action) override { return filter(action).submenu(); }
     void initParameterSet(QAction* action, MeshDocument& document, RichParameterList& parameters) override;
     bool applyFilter(QAction* action, MeshDocument& document, const RichParameterList& parameters,
                      vcg::CallBackPos* progress) override;
 #else
     QString vendor() const override { return "Polycube"; }
     QString pythonFilterName(host::FilterId filter) const override;
-    FilterClass getClass(const QAction* action) const override { return FilterClass(filter(action).classes()); }
+    FilterClass getClass(const QAction* action) const override { return filter(action).submenu(); }
     RichParameterList initParameterList(const QAction* action, const MeshDocument& document) override;
     host::Values applyFilter(const QAction* action, const RichParameterList& parameters, MeshDocument& document,
                              unsigned int& post_condition, vcg::CallBackPos* progress) override;

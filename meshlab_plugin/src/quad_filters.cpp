@@ -24,8 +24,8 @@ void add_quad_layer(const Call& call, const PairLayers& layers, const polycube::
     MeshModel& layer = added.add(quads, target.label() + suffix, &target);
     paint(cells_of_written(quads), colours_of(patch_id), scalars, layer);
     added.keep();
-    host::hide(call.document, layers.polycube);
-    host::hide(call.document, target);
+    call.document.setVisible(layers.polycube.id(), false);
+    call.document.setVisible(target.id(), false);
 }
 
 host::Values values_of(const polycube::Remeshed& result, const polycube::filter::Pair& pair) {

@@ -74,8 +74,8 @@ host::Values SimplifyFilter::apply(const Call& call) const {
            {"label", as_scalars(result.label_of_face)}},
           layer);
     added.keep();
-    host::hide(call.document, layers.polycube);
-    if (layers.shape != nullptr) host::hide(call.document, *layers.shape);
+    call.document.setVisible(layers.polycube.id(), false);
+    if (layers.shape != nullptr) call.document.setVisible(layers.shape->id(), false);
     call.log_all(result.log);
 
     host::Values values;

@@ -200,6 +200,7 @@ def test_wrong_parameters_are_errors(server, pair, tmp_path):
     runs = [
         (simplify(strategy=2, step=40), "lattice"),
         (simplify(step=-1), "scale"),
+        (simplify(simplicity=2), "simplicity"),
         (quads(edge=0), "positive"),
         (hexes(tmp_path / "hexes.obj"), "Choose a name"),
         (hexes(tmp_path / "none" / "hexes.vtu"), "Choose another"),

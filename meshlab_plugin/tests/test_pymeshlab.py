@@ -351,7 +351,6 @@ def test_numbers_out_of_range_are_refused(pair, tmp_path):
     fails(layers, "0 to 16", "generate_polycube_hex_remesh", file=file, padding=-1)
     fails(layers, "positive", "generate_polycube_quad_remesh", edge_length=ml.PureValue(0.0))
     fails(layers, "scale", "generate_polycube_simplified", lattice_step=ml.PureValue(-1.0))
-    fails(layers, "implicity", "generate_polycube_simplified", simplicity=2.0)
     fails(layers, "tolerance|45", "compute_polycube_check", angle_tolerance=60.0)
     fails(layers, "seed", "create_polycube_example", seed=-1)
     with pytest.raises(ml.PyMeshLabException):
