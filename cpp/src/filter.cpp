@@ -81,8 +81,8 @@ Lines log_of(const Remeshed& result) {
     Lines log;
     add_report(log, result.simplified.report());
     const RemeshReport& report = result.report;
-    log.push_back(
-        line(report.quads, " quadrilaterals, ", report.hexes, " hexahedra in ", report.hex_blocks, " blocks"));
+    log.push_back(line(report.quads, " quadrilaterals"));
+    if (report.hexes > 0) log.push_back(line(report.hexes, " hexahedra in ", report.hex_blocks, " blocks"));
     if (report.min_scaled_jacobian && report.mean_scaled_jacobian) {
         log.push_back(
             line("scaled Jacobian: smallest ", *report.min_scaled_jacobian, ", mean ", *report.mean_scaled_jacobian));

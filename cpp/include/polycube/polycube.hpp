@@ -10,6 +10,7 @@
 #include <polycube/example.hpp>
 #include <polycube/filter.hpp>
 #include <polycube/mesh.hpp>
+#include <polycube/quality.hpp>
 #include <polycube/remesh.hpp>
 #include <polycube/simplify.hpp>
 

@@ -96,6 +96,11 @@ pub fn boundary(view: &MeshView) -> Result<MeshData> {
     })
 }
 
+/// See `polycube::optimise::scaled_jacobians`.
+pub fn scaled_jacobians(view: &MeshView) -> Result<Vec<f64>> {
+    guard(|| polycube::optimise::scaled_jacobians(&mesh(view)?))
+}
+
 /// The names that [`example`] knows.
 pub fn example_names() -> Vec<String> {
     Example::ALL.iter().map(Example::to_string).collect()

@@ -15,7 +15,9 @@ mod run;
 #[cfg(test)]
 mod tests;
 
-use buffers::{boundary, example, read_mesh, read_mesh_bytes, read_pair, write_mesh, write_mesh_bytes};
+use buffers::{
+    boundary, example, read_mesh, read_mesh_bytes, read_pair, scaled_jacobians, write_mesh, write_mesh_bytes,
+};
 use buffers::{example_names, read_labels, write_labels};
 use checking::check;
 use meshing::{default_remesh_options, remesh};
@@ -335,6 +337,7 @@ mod ffi {
         fn read_labels(path: &str, face_count: usize) -> Result<Vec<i8>>;
         fn write_labels(path: &str, labels: &[i8]) -> Result<()>;
         fn boundary(mesh: &MeshView) -> Result<MeshData>;
+        fn scaled_jacobians(mesh: &MeshView) -> Result<Vec<f64>>;
         fn example_names() -> Vec<String>;
         fn example(name: &str, seed: u64, kind: u8) -> Result<PairData>;
         fn version() -> &'static str;

@@ -32,8 +32,8 @@ pub use freedom::Freedom;
 pub use guide::{Contact, CurveGuide, Guide, SurfaceGuide, Tangent};
 pub(crate) use nearest::{Foot, Nearest};
 pub use quality::{
-    BARS, Statistics, cell_qualities, hexahedron_volume, scaled_jacobian, statistics, tetrahedron_scaled_jacobian,
-    tetrahedron_volume,
+    BARS, Statistics, cell_qualities, hexahedron_volume, quadrilateral_scaled_jacobian, scaled_jacobian,
+    scaled_jacobians, statistics, tetrahedron_scaled_jacobian, tetrahedron_volume,
 };
 
 use crate::context::Context;
