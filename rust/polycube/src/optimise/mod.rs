@@ -30,8 +30,8 @@ pub use elements::{Elements, Measure};
 pub use freedom::Freedom;
 pub use guide::{Contact, CurveGuide, Guide, SurfaceGuide, Tangent};
 pub use quality::{
-    BARS, Statistics, cell_qualities, hexahedron_volume, scaled_jacobian, statistics, tetrahedron_scaled_jacobian,
-    tetrahedron_volume,
+    BARS, Statistics, cell_qualities, hexahedron_volume, quad_scaled_jacobian, scaled_jacobian, statistics,
+    tetrahedron_scaled_jacobian, tetrahedron_volume,
 };
 
 use crate::context::Context;

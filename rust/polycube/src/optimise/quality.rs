@@ -36,6 +36,27 @@ pub fn scaled_jacobian(points: &[Point], hex: &[u32; 8]) -> f64 {
     HEX_CORNERS.iter().map(corner).fold(1.0, f64::min)
 }
 
+/// Verdict's scaled Jacobian of a quadrilateral, in −1..1: the minimum over its four corners of the part of
+/// `a × b / (|a| |b|)` that looks along the normal in the middle, for the edges `a`, `b` that leave the corner.
+///
+/// 1 for rectangles, 0 or below where a corner is flat or reflex; 0 where an edge has no length.
+///
+/// # Panics
+/// When a vertex is not among `points`.
+pub fn quad_scaled_jacobian(points: &[Point], quad: &[u32; 4]) -> f64 {
+    let at = quad.map(|v| points[v as usize]);
+    let middle = ((at[1] - at[0]) + (at[2] - at[3])).cross(&((at[2] - at[1]) + (at[3] - at[0])));
+    let Some(normal) = middle.try_normalize(0.0) else {
+        return 0.0;
+    };
+    let corner = |i: usize| {
+        let (a, b) = (at[(i + 1) % 4] - at[i], at[(i + 3) % 4] - at[i]);
+        let lengths = a.norm() * b.norm();
+        if lengths > 0.0 { a.cross(&b).dot(&normal) / lengths } else { 0.0 }
+    };
+    (0..4).map(corner).fold(1.0, f64::min)
+}
+
 /// Verdict's scaled Jacobian of a tetrahedron, in −1..1: `√2 det / λ`, where `λ` is the largest product
 /// of the three edge lengths at a vertex. 1 for regular tetrahedra, 0 for flat ones.
 ///
@@ -162,6 +183,21 @@ mod tests {
         }
         let [(quality, volume)] = cell_qualities(&mesh).unwrap()[..] else { panic!() };
         assert!((quality - 0.5_f64.sqrt()).abs() < 1e-15 && (volume - 1.0).abs() < 1e-15);
+    }
+
+    #[test]
+    fn quadrilaterals_have_the_sine_of_their_worst_corner() {
+        let quality = |corners: [[f64; 2]; 4]| {
+            // Turned out of the plane: only the form counts.
+            let points = corners.map(|[x, y]| Point::new(x, 0.6 * y, 0.8 * y));
+            quad_scaled_jacobian(&points, &[0, 1, 2, 3])
+        };
+        assert!((quality([[0., 0.], [3., 0.], [3., 1.], [0., 1.]]) - 1.0).abs() < 1e-15);
+        assert!((quality([[0., 0.], [1., 0.], [2., 1.], [1., 1.]]) - 0.5_f64.sqrt()).abs() < 1e-15);
+        // An arrow: its reflex corner counts as negative.
+        assert!((quality([[0., 0.], [1., -1.], [0., 2.], [-1., -1.]]) + 1.0).abs() < 1e-15);
+        assert_eq!(quality([[0., 0.], [0., 0.], [1., 1.], [0., 1.]]), 0.0);
+        assert_eq!(quality([[1., 1.]; 4]), 0.0);
     }
 
     #[test]
