@@ -48,6 +48,23 @@ impl Quads {
     }
 }
 
+impl Quads {
+    /// The mesh edges that lie on edges of the polycube, as pairs of vertices, the lower one first, in ascending order.
+    /// O(n log n) for n quadrilaterals.
+    pub fn feature_edges(&self) -> Vec<[u32; 2]> {
+        let mut sides: Vec<([u32; 2], i8)> = Vec::with_capacity(4 * self.label.len());
+        for (i, &label) in self.label.iter().enumerate() {
+            let quad = self.mesh.cells.cell(i);
+            let side = |k: usize| [quad[k].min(quad[(k + 1) % 4]), quad[k].max(quad[(k + 1) % 4])];
+            sides.extend((0..4).map(|k| (side(k), label)));
+        }
+        sides.sort_unstable();
+        // Both facets at an edge of the polycube look along other axes, and two of one label do not meet at a side.
+        let at_edge = |pair: &&[([u32; 2], i8)]| pair.iter().any(|(_, label)| *label != pair[0].1);
+        sides.chunk_by(|a, b| a.0 == b.0).filter(at_edge).map(|pair| pair[0].0).collect()
+    }
+}
+
 impl Remesher<'_> {
     /// The surface of the lattice on the shape: corners go to corners, lattice vertices of an edge along the edge, others
     /// through the triangles of their facet. O(n log n) for n quadrilaterals.
