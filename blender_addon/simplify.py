@@ -40,7 +40,7 @@ class POLYCUBE_OT_simplify(jobs.JobOperator, settings.SimplifyOptions, bpy.types
 
 def search_options(options, locked):
     """The arguments that `Job.simplify` and `Job.remesh` share, from an operator's or the panel's options."""
-    return {
+    given = {
         "strategy": options.strategy,
         "objective": options.objective,
         "simplicity": options.simplicity,
@@ -50,6 +50,7 @@ def search_options(options, locked):
         "steps": options.steps,
         **tolerances(options),
     }
+    return {name: value for name, value in given.items() if value is not None}
 
 
 def tolerances(options):
