@@ -38,7 +38,7 @@ class POLYCUBE_OT_write_hexes(jobs.JobOperator, settings.SearchOptions, settings
         placed = in_scene(shape, meshes.hexes.points / read.shape_size)
         fields = {name: getattr(meshes.hexes, name) for name in ("scaled_jacobian", "block_id", "label")}
         # The file appears whole or not at all.
-        polycube.Mesh(placed, meshes.hexes.cells).write(bpy.path.abspath(self.filepath), fields=fields)
+        polycube.Mesh(placed, meshes.hexes.cells, kind="hexahedra").write(bpy.path.abspath(self.filepath), fields=fields)
         report = meshes.report
         summary = (
             f"{report['hexes']} hexahedra in {report['hex_blocks']} blocks\n"

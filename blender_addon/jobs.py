@@ -21,6 +21,7 @@ def running():
     return _Running.job is not None
 
 
+@bpy.app.handlers.persistent
 def stop(*_):
     """Cancels the job at work: another file is loaded, or the extension is switched off."""
     if _Running.job is not None:

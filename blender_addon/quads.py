@@ -21,7 +21,8 @@ class POLYCUBE_OT_quad_remesh(jobs.JobOperator, settings.SearchOptions, settings
 
     def finish(self, context, read, meshes):
         obj, shape = quad_object(context, read, meshes, "Quads")
-        transfer.carry_over(context, shape, obj)
+        with source.visible(context, shape, 0 if read.key else None):
+            transfer.carry_over(context, shape, obj)
         lines = curves.singular(context, shape, obj, meshes, read.shape_size)
         finish(self, context, shape, [obj, *lines], meshes)
 

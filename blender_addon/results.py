@@ -84,7 +84,6 @@ def _new_key(holder, source):
 
 def _new_object(context, holder, source):
     with visible(context, holder):
-        context.view_layer.update()
         depsgraph = context.evaluated_depsgraph_get()
         evaluated = holder.evaluated_get(depsgraph)
         mesh = bpy.data.meshes.new_from_object(evaluated, preserve_all_data_layers=True, depsgraph=depsgraph)

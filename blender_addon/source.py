@@ -130,8 +130,8 @@ def _source(holder, key, cube, shape, body, editable):
         holder=holder.name,
         shape_name=shape.name if shape else None,
         key=key,
-        polycube=polycube.Mesh(points, cells),
-        shape=None if body is None else polycube.Mesh(shape_points, cells),
+        polycube=_mesh(points, cells),
+        shape=None if body is None else _mesh(shape_points, cells),
         polygon_of_cell=polygon_of_cell,
         polygon_count=len(cube.sizes),
         size=size,
@@ -139,6 +139,10 @@ def _source(holder, key, cube, shape, body, editable):
         editable=editable,
         fingerprint=digest.digest(),
     )
+
+
+def _mesh(points, cells):
+    return polycube.Mesh(points, cells, kind="quads" if cells.shape[1] == 4 else "triangles")
 
 
 def _scale(obj):
@@ -179,8 +183,7 @@ def _surface(context, obj, key):
 
 def _shown(context, obj, key):
     """The object's mesh as the viewport shows it, or would show it with one shape key alone."""
-    with visible(context, obj), _pinned(obj, key):
-        context.view_layer.update()
+    with visible(context, obj, key):
         evaluated = obj.evaluated_get(context.evaluated_depsgraph_get())
         mesh = evaluated.to_mesh()
         try:
@@ -190,34 +193,26 @@ def _shown(context, obj, key):
 
 
 @contextlib.contextmanager
-def visible(context, obj):
-    """Shows a hidden object for a moment: Blender evaluates no modifiers of hidden ones."""
+def visible(context, obj, key=None):
+    """Shows an object for a moment, with one shape key alone if its number is given. Blender evaluates no modifiers of
+    hidden objects."""
     if obj.name not in context.view_layer.objects:
         raise faults.Refused(f"{obj.name} is not in this view layer", "link it to a collection that is switched on")
-    hidden, disabled = obj.hide_get(), obj.hide_viewport
-    if hidden or disabled:
-        obj.hide_viewport = False
-        obj.hide_set(False)
+    before = obj.hide_get(), obj.hide_viewport, obj.show_only_shape_key, obj.active_shape_key_index
+    _show(obj, False, False, *(before[2:] if key is None else (True, key)))
+    context.view_layer.update()
     try:
         yield
     finally:
-        if hidden or disabled:
-            obj.hide_viewport = disabled
-            obj.hide_set(hidden)
+        _show(obj, *before)
 
 
-@contextlib.contextmanager
-def _pinned(obj, key):
-    """Shows one shape key alone for a moment."""
-    if key is None:
-        yield
-        return
-    before = obj.show_only_shape_key, obj.active_shape_key_index
-    obj.show_only_shape_key, obj.active_shape_key_index = True, key
-    try:
-        yield
-    finally:
-        obj.show_only_shape_key, obj.active_shape_key_index = before
+def _show(obj, hidden, disabled, only_key, key):
+    # Shown in all view layers first: an object that is not cannot be shown in one.
+    obj.hide_viewport = False
+    obj.hide_set(hidden)
+    obj.hide_viewport = disabled
+    obj.show_only_shape_key, obj.active_shape_key_index = only_key, key
 
 
 def _arrays(mesh):

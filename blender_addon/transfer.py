@@ -4,11 +4,9 @@
 import bpy
 from mathutils.bvhtree import BVHTree
 
-from .source import visible
-
 
 def carry_over(context, shape, obj):
-    """Gives `obj`, whose surface lies on that of `shape`, what `shape` has, taken from the nearest place."""
+    """Gives `obj`, whose surface lies on that of `shape` as the viewport shows it, what `shape` has there."""
     _materials(context, shape, obj)
     if shape.vertex_groups:
         _layers(context, shape, obj, 'VGROUP_WEIGHTS', vert_mapping='POLYINTERP_NEAREST')
@@ -17,7 +15,7 @@ def carry_over(context, shape, obj):
 
 
 def _layers(context, shape, obj, data_type, **mapping):
-    with visible(context, shape), context.temp_override(
+    with context.temp_override(
         object=shape, active_object=shape, selected_objects=[shape, obj], selected_editable_objects=[shape, obj]
     ):
         bpy.ops.object.data_transfer(
@@ -35,12 +33,11 @@ def _materials(context, shape, obj):
         obj.data.materials.append(slot.material)
     if len(shape.material_slots) < 2:
         return
-    with visible(context, shape):
-        context.view_layer.update()
-        tree = BVHTree.FromObject(shape, context.evaluated_depsgraph_get())
-        evaluated = shape.evaluated_get(context.evaluated_depsgraph_get())
-        to_shape = shape.matrix_world.inverted() @ obj.matrix_world
-        for polygon in obj.data.polygons:
-            nearest = tree.find_nearest(to_shape @ polygon.center)[2]
-            if nearest is not None:
-                polygon.material_index = evaluated.data.polygons[nearest].material_index
+    depsgraph = context.evaluated_depsgraph_get()
+    tree = BVHTree.FromObject(shape, depsgraph)
+    source = shape.evaluated_get(depsgraph).data.polygons
+    to_shape = shape.matrix_world.inverted() @ obj.matrix_world
+    for polygon in obj.data.polygons:
+        nearest = tree.find_nearest(to_shape @ polygon.center)[2]
+        if nearest is not None:
+            polygon.material_index = source[nearest].material_index

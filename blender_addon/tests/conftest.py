@@ -16,20 +16,20 @@ os.environ["BLENDER_USER_RESOURCES"] = tempfile.mkdtemp(prefix="polycube-blender
 
 import bpy
 import pytest
-from solids import add_pair, solid
 
-ID = "polycube"
-MODULE = f"bl_ext.user_default.{ID}"
+# As a user does it, and before the tests import the Python module that comes with it.
+INSTALLED = bpy.ops.extensions.package_install_files(
+    filepath=os.environ["POLYCUBE_ZIP"], repo="user_default", enable_on_install=True
+)
+
+from solids import add_pair, solid  # noqa: E402
 
 
-@pytest.fixture(scope="session", autouse=True)
+@pytest.fixture(scope="session")
 def extension():
-    """The extension, switched on."""
-    answer = bpy.ops.extensions.package_install_files(
-        filepath=os.environ["POLYCUBE_ZIP"], repo="user_default", enable_on_install=True
-    )
-    assert answer == {'FINISHED'}
-    return MODULE
+    """The name under which Blender knows the extension, which is switched on."""
+    assert INSTALLED == {'FINISHED'}
+    return "bl_ext.user_default.polycube"
 
 
 @pytest.fixture(autouse=True)

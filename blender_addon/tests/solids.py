@@ -69,9 +69,15 @@ def faces_of(mesh):
     return [list(p.vertices) for p in mesh.polygons]
 
 
+def mesh_of(points, faces):
+    """A mesh of triangles or quadrilaterals for the core."""
+    faces = np.array(faces)
+    return polycube.Mesh(np.asarray(points, dtype=float), faces, kind="quads" if faces.shape[1] == 4 else "triangles")
+
+
 def write(path, points, faces):
     """A mesh file for the command."""
-    polycube.Mesh(np.asarray(points, dtype=float), np.array(faces)).write(path)
+    mesh_of(points, faces).write(path)
     return path
 
 

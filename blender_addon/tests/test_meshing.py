@@ -7,7 +7,7 @@ import bpy
 import numpy as np
 import polycube
 import pytest
-from solids import add, faces_of, key_points, points_of, solid, values, write
+from solids import add, faces_of, key_points, mesh_of, points_of, solid, values, write
 
 ops = bpy.ops.polycube
 
@@ -159,8 +159,8 @@ def test_singular_edges_and_borders_are_curves(pair, settings):
     different = sum(a != b for a, b in inside.values())
     assert len(borders.data.splines) == different
     # An edge of the polycube is singular: its ends are corners of it.
-    corners = set(polycube.structure(polycube.Mesh(*map(np.array, solid()))).corners.tolist())
-    shape = points_of(pair[0].data)
+    corners = set(polycube.structure(mesh_of(*solid())).corners.tolist())
+    shape = points_of(pair[0].data).astype(float)
     ends = {tuple(np.round(s.points[i].co[:3], 4)) for s in singular.data.splines for i in (0, -1)}
     assert ends == {tuple(np.round(shape[c], 4)) for c in corners}
 

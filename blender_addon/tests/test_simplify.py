@@ -8,7 +8,7 @@ import bpy
 import numpy as np
 import polycube
 import pytest
-from solids import add, add_pair, bent, faces_of, key_points, points_of, snapshot, solid, values, write
+from solids import add, add_pair, bent, faces_of, key_points, mesh_of, points_of, snapshot, solid, values, write
 
 ops = bpy.ops.polycube
 
@@ -57,8 +57,7 @@ def test_a_new_shape_key(settings, command, tmp_path):
 def test_face_attributes_and_colours(pair):
     ops.simplify()
     mesh = bpy.context.object.data
-    points, faces = solid()
-    labels = polycube.structure(polycube.Mesh(points, np.array(faces))).label
+    labels = polycube.structure(mesh_of(*solid())).label
     assert values(mesh, "label") == labels.tolist()
     assert len(set(values(mesh, "block_id"))) > 1
     colours = mesh.color_attributes.active_color
