@@ -1,6 +1,6 @@
 //! What `simplify` writes beside the mesh: `report.json` and `structure.json`.
 
-use polycube::align::{Effort, SolverKind};
+use polycube::align::{Effort, Guides, SolverKind};
 use polycube::layout::Objective;
 use polycube::remesh::{RemeshOptions, RemeshReport, Size};
 use polycube::simplify::{Options, Report, Simplified};
@@ -49,7 +49,7 @@ pub struct RemeshRun<'a> {
 }
 
 /// The options that the library's report of a remeshing does not repeat.
-#[derive(Clone, Copy, Debug, Serialize)]
+#[derive(Clone, Debug, Serialize)]
 pub struct RemeshOptionsUsed {
     #[serde(flatten)]
     simplify: OptionsUsed,
@@ -60,24 +60,29 @@ pub struct RemeshOptionsUsed {
 
 impl From<&RemeshOptions> for RemeshOptionsUsed {
     fn from(options: &RemeshOptions) -> Self {
-        let RemeshOptions { simplify, size, surface_only, max_hausdorff, .. } = *options;
+        let RemeshOptions { simplify, size, surface_only, max_hausdorff, .. } = options.clone();
         Self { simplify: simplify.into(), size, surface_only, max_hausdorff }
     }
 }
 
 /// The options that the library's report does not repeat.
-#[derive(Clone, Copy, Debug, Serialize)]
+#[derive(Clone, Debug, Serialize)]
 pub struct OptionsUsed {
     lambda_min: f64,
     solver: SolverKind,
     objective: Option<Objective>,
     effort: Effort,
     tolerance: Tolerance,
+    max_displacement: Option<f64>,
+    max_distortion: Option<f64>,
+    guides: Guides,
 }
 
 impl From<Options> for OptionsUsed {
-    fn from(Options { lambda_min, solver, objective, effort, tolerance, .. }: Options) -> Self {
-        Self { lambda_min, solver, objective, effort, tolerance }
+    fn from(options: Options) -> Self {
+        let Options { lambda_min, solver, objective, effort, tolerance, .. } = options;
+        let Options { max_displacement, max_distortion, guides, .. } = options;
+        Self { lambda_min, solver, objective, effort, tolerance, max_displacement, max_distortion, guides }
     }
 }
 

@@ -183,6 +183,8 @@ impl Args {
             },
             simplicity: Some(self.simplicity),
             max_displacement: self.max_displacement,
+            max_distortion: None,
+            guides: polycube::align::Guides::default(),
             tolerance: self.mesh.tolerance.get(),
         }
     }

@@ -34,6 +34,13 @@ mod native {
     #[pymodule_export]
     use crate::structure::{PyCounts, PyStructure, structure};
 
+    /// Panics where the library would, for the test that Python survives it.
+    #[pyfunction]
+    fn _panic(py: Python<'_>) -> PyResult<()> {
+        let listener = crate::work::Listener { progress: None, cancel: None };
+        listener.run(py, |_: &polycube::Context| panic!("as asked"))
+    }
+
     #[pymodule_init]
     fn init(module: &Bound<'_, PyModule>) -> PyResult<()> {
         module.add("__version__", env!("CARGO_PKG_VERSION"))?;

@@ -2,7 +2,7 @@
 
 use crate::arrays;
 use crate::errors;
-use polycube::align::{Effort, SolverKind, Strategy};
+use polycube::align::{Effort, Guides, SolverKind, Strategy};
 use polycube::layout::Objective;
 use polycube::remesh::{MAX_PADDING, RemeshOptions, Size};
 use polycube::simplify::Options;
@@ -131,8 +131,21 @@ impl<'py> Keywords<'py> {
             effort: self.effort()?,
             simplicity: Some(self.fraction("simplicity")?.unwrap_or(1.0)),
             max_displacement: self.positive("max_displacement")?,
+            max_distortion: self.number("max_distortion", "of 1 or more", |x| x >= 1.0)?,
+            guides: self.guides()?,
             tolerance: self.tolerance()?,
         })
+    }
+
+    /// Takes guides as the dictionary that a guide file of the command holds.
+    fn guides(&self) -> PyResult<Guides> {
+        let Some(given) = self.take::<Bound<'py, PyAny>>("guides")? else {
+            return Ok(Guides::default());
+        };
+        let text: String = self.py().import("json")?.call_method1("dumps", (given,))?.extract()?;
+        let remedy = "give {\"fixed\": [facet], \"together\": [[facet, facet]], \"apart\": [[facet, facet]], \"symmetry\": \
+                      [{\"axis\": 0, \"at\": 0.0}]}";
+        serde_json::from_str(&text).map_err(|e| errors::option(self.py(), format!("guides: {e}"), remedy))
     }
 
     fn effort(&self) -> PyResult<Effort> {

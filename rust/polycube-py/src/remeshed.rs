@@ -408,9 +408,10 @@ pub fn task(
 ) -> PyResult<impl FnOnce(&Context) -> Result<PyRemeshed, Failure> + Send + 'static> {
     let keywords = Keywords::new(py, "remesh", options)?;
     let source = Source::new(polycube, Some(shape), &keywords)?;
-    let options = keywords.remesh()?;
+    let mut options = keywords.remesh()?;
     keywords.finish()?;
     Ok(move |context: &Context| {
+        source.lock(&mut options.simplify)?;
         let result = run(&source.input(), &options, context).map_err(|e| source.failure(e))?;
         Ok(PyRemeshed::new(result, source))
     })

@@ -6,9 +6,9 @@ use crate::options::Keywords;
 use crate::report::to_dict;
 use crate::structure::{PyCounts, PyStructure};
 use crate::work::{Failure, Listener};
-use polycube::Context;
 use polycube::mesh::Mesh;
-use polycube::simplify::{Input, Options, Simplified, simplify as run};
+use polycube::simplify::{Input, Options, Simplified, read_structure, simplify as run};
+use polycube::{Context, Error, ErrorKind};
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
 use std::sync::Arc;
@@ -47,9 +47,24 @@ impl Source {
         Failure::new(error, &self.polycube)
     }
 
-    /// Simplifies it.
-    pub fn simplify(self, options: &Options, context: &Context) -> Result<PySimplified, Failure> {
-        let result = run(&self.input(), options, context).map_err(|e| self.failure(e))?;
+    /// Adds the facets of the locked faces to those that must not move.
+    pub fn lock(&self, options: &mut Options) -> Result<(), Failure> {
+        if self.locked.is_empty() {
+            return Ok(());
+        }
+        let polycube = read_structure(&self.input(), &options.tolerance).map_err(|e| self.failure(e))?;
+        let faces = polycube.facet_of_face.len();
+        if let Some(face) = self.locked.iter().find(|&&f| f >= faces) {
+            let message = format!("locked_faces names face {face} of {faces}");
+            return Err(Error::new(ErrorKind::Option, message).remedy("give boundary faces from 0 on").into());
+        }
+        options.guides.fix_faces(&polycube, &self.locked);
+        Ok(())
+    }
+
+    fn simplify(self, mut options: Options, context: &Context) -> Result<PySimplified, Failure> {
+        self.lock(&mut options)?;
+        let result = run(&self.input(), &options, context).map_err(|e| self.failure(e))?;
         Ok(PySimplified::new(result, self))
     }
 }
@@ -162,6 +177,29 @@ impl PySimplified {
         to_dict(py, &self.0.result.report)
     }
 
+    /// Another point of the same front, from 1, the fewest blocks, to 0, the least displacement: for a slider. Nothing is searched
+    /// again; it takes the time of the morph. As in `simplify`, other threads run and `progress` and `cancel` are heeded.
+    ///
+    /// Raises:
+    ///     InvalidOption: `simplicity` is out of its range, or there is no front: only the strategy "best" makes one.
+    ///     Cancelled: `cancel` was set.
+    #[pyo3(signature = (simplicity, *, progress=None, cancel=None))]
+    fn at<'py>(
+        &self,
+        py: Python<'py>,
+        simplicity: f64,
+        progress: Option<Bound<'py, PyAny>>,
+        cancel: Option<Bound<'py, PyAny>>,
+    ) -> PyResult<Self> {
+        let parts = Arc::clone(&self.0);
+        let task = move |context: &Context| {
+            let Parts { source, result, .. } = &*parts;
+            let moved = result.at(&source.input(), simplicity, context).map_err(|e| source.failure(e))?;
+            Ok(Self::new(moved, source.clone()))
+        };
+        Listener { progress, cancel }.run(py, task)
+    }
+
     fn __repr__(&self) -> String {
         let count = |c: polycube::layout::Counts| c.blocks_padded;
         let report = &self.0.result.report;
@@ -188,7 +226,7 @@ impl PySimplified {
 ///     objective: what "best" makes small: "blocks_padded" (volumes), "blocks", or "surface_patches" (surfaces).
 ///     simplicity: from 1, the fewest blocks, to 0, the least displacement.
 ///     max_displacement: the farthest that a corner may move, in units of the polycube.
-///     max_distortion: the most that the map's distortion may grow to; see the command's `--max-distortion`.
+///     max_distortion: the largest mean angle distortion, 1 or more, of the map from the shape to the result.
 ///     locked_faces: numbers of boundary faces whose facets must not move.
 ///     guides: what else to keep: `{"fixed": facets, "together": [facets], "apart": [[facet, facet]], "symmetry":
 ///         [{"axis": 0, "at": 0.0}]}`, by the numbers of `structure(polycube)`.
@@ -241,5 +279,5 @@ pub fn task(
     let source = Source::new(polycube, shape, &keywords)?;
     let options = keywords.simplify()?;
     keywords.finish()?;
-    Ok(move |context: &Context| source.simplify(&options, context))
+    Ok(move |context: &Context| source.simplify(options, context))
 }

@@ -4,6 +4,7 @@
 //! [`mesh`] → [`structure`] → [`align`] → [`layout`] → [`map`] → [`remesh`].
 
 pub mod align;
+pub mod compare;
 pub mod context;
 pub mod error;
 pub mod generate;

@@ -1,6 +1,6 @@
 //! The whole method: read the structure, align it, morph the mesh onto the result, and say what happened.
 
-use crate::align::{self, Alignment, Effort, LowerBound, Round, SolverKind, Strategy, TradeOff};
+use crate::align::{self, Alignment, Effort, Guides, LowerBound, Round, SolverKind, Strategy, TradeOff};
 use crate::context::Context;
 use crate::error::{Error, ErrorKind, Result};
 use crate::layout::{Counts, Objective, count};
@@ -8,6 +8,10 @@ use crate::map::{Distortion, Flipped, distortion, flipped, morph};
 use crate::mesh::{Mesh, Point};
 use crate::structure::{Arrangement, Deviation, Polycube, Tolerance, Violation};
 use std::time::Instant;
+
+mod front;
+
+pub use front::Located;
 
 /// What is simplified.
 #[derive(Clone, Copy, Debug)]
@@ -21,7 +25,7 @@ pub struct Input<'a> {
 }
 
 /// How it is simplified.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
+#[derive(Clone, Debug, Default, PartialEq)]
 pub struct Options {
     /// How the levels find their places.
     pub strategy: Strategy,
@@ -41,8 +45,29 @@ pub struct Options {
     pub simplicity: Option<f64>,
     /// The farthest that the strategy `best` may move a corner, in units of the polycube.
     pub max_displacement: Option<f64>,
+    /// The largest mean angle distortion ([`Distortion::angle`], at least 1) that the map from the shape to the result of the
+    /// strategy `best` may have; of the front, the point with the fewest blocks that keeps it is taken.
+    pub max_distortion: Option<f64>,
+    /// Facets that must not move, that must or must not align, planes of symmetry.
+    pub guides: Guides,
     /// How far the input may be from a polycube.
     pub tolerance: Tolerance,
+}
+
+impl Options {
+    fn alignment(&self, scale: f64, mesh: &Mesh) -> align::Options {
+        align::Options {
+            strategy: self.strategy,
+            scale,
+            lambda_min: self.lambda_min,
+            solver: self.solver,
+            objective: self.objective.unwrap_or_else(|| default_objective(mesh)),
+            effort: self.effort,
+            simplicity: self.simplicity.unwrap_or(1.0),
+            max_displacement: self.max_displacement,
+            guides: self.guides.clone(),
+        }
+    }
 }
 
 /// A simplified polycube.
@@ -56,6 +81,8 @@ pub struct Simplified {
     pub levels: Vec<i64>,
     /// What was done.
     pub report: Report,
+    /// How it was asked to be done.
+    pub options: Options,
 }
 
 /// What was done, for people and programs.
@@ -75,6 +102,8 @@ pub struct Report {
     pub rounds: Vec<Round>,
     /// The trade-off between the count and displacement that the strategy `best` met, from the fewest blocks on.
     pub front: Vec<TradeOff>,
+    /// Which point of the front the result is, from 0; nothing if it is none.
+    pub chosen: Option<usize>,
     /// How far the count can go down at most, as far as the strategy `best` could prove it.
     pub bound: Option<LowerBound>,
     /// Time spent, in seconds.
@@ -95,6 +124,40 @@ pub struct Report {
 }
 
 impl Report {
+    /// What is known before the mesh is morphed.
+    fn new(polycube: &Polycube, alignment: &Alignment, strategy: Strategy, scale: f64) -> Self {
+        let notes = match alignment.broken.len() {
+            0 => Vec::new(),
+            n => vec![format!("rounding to the lattice made the surface touch or cross itself in {n} places")],
+        };
+        Self {
+            strategy,
+            scale,
+            valid: alignment.after.is_some(),
+            before: alignment.before,
+            after: alignment.after,
+            rounds: alignment.rounds.clone(),
+            front: alignment.front.clone(),
+            chosen: alignment.chosen,
+            bound: alignment.bound,
+            seconds: Seconds::default(),
+            max_displacement: max_displacement(polycube, &alignment.levels, scale),
+            flipped_elements: 0,
+            flipped: Flipped::default(),
+            deviation: polycube.deviation,
+            distortion: None,
+            notes,
+        }
+    }
+
+    fn note_displacement(&mut self, options: &Options) {
+        let least = self.max_displacement;
+        if let Some(limit) = options.max_displacement.filter(|&l| l < least) {
+            let note = format!("no result found moves the corners by {limit} or less; this one moves them by {least}");
+            self.notes.push(note);
+        }
+    }
+
     /// Lists the flipped elements anew, after `mesh` was untangled.
     pub(crate) fn rejudge(&mut self, polycube: &Polycube, mesh: &Mesh) -> Result<()> {
         self.notes.retain(|note| !note.ends_with(FLIPPED_NOTE));
@@ -157,32 +220,21 @@ pub fn simplify(input: &Input, options: &Options, context: &Context) -> Result<S
     let polycube = read_structure(input, &options.tolerance)?;
     let scale = options.scale.unwrap_or_else(|| default_scale(&polycube, input.polycube));
     let structured = start.elapsed().as_secs_f64();
-    let settings = align::Options {
-        strategy: options.strategy,
-        scale,
-        lambda_min: options.lambda_min,
-        solver: options.solver,
-        objective: options.objective.unwrap_or_else(|| default_objective(input.polycube)),
-        effort: options.effort,
-        simplicity: options.simplicity.unwrap_or(1.0),
-        max_displacement: options.max_displacement,
-    };
+    let settings = options.alignment(scale, input.polycube);
     let aligning = context.stage("align", 0.1, 0.5);
     let alignment = align::align(&polycube.structure, &polycube.placement, &settings, &aligning)?;
     let aligned = start.elapsed().as_secs_f64();
-    let mut report = report(&polycube, &alignment, options.strategy, scale);
+    let mut report = Report::new(&polycube, &alignment, options.strategy, scale);
     if options.strategy == Strategy::Best && alignment.bound.is_none() {
         let note = "the result is that of Algorithm 1: there are more than 126 levels on every axis, too many to search, or \
                     fewer patches would have meant more blocks";
         report.notes.push(note.into());
     }
-    if let Some(limit) = options.max_displacement.filter(|&l| l < report.max_displacement) {
-        let least = report.max_displacement;
-        report
-            .notes
-            .push(format!("no result found moves the corners by {limit} or less; this one moves them by {least}"));
-    }
-    let mut result = finish(input, polycube, alignment.levels, report, &context.stage("morph", 0.5, 1.0))?;
+    report.note_displacement(options);
+    let morphing = context.stage("morph", 0.5, 1.0);
+    let asked = Options { objective: Some(settings.objective), ..options.clone() };
+    let result = finish(input, polycube, alignment.levels, report, &asked, &morphing)?;
+    let mut result = result.within_distortion(input, &morphing)?;
     let total = start.elapsed().as_secs_f64();
     let stages =
         Seconds { structure: structured, align: aligned - structured, morph: total - aligned, ..Seconds::default() };
@@ -191,31 +243,36 @@ pub fn simplify(input: &Input, options: &Options, context: &Context) -> Result<S
 }
 
 impl Simplified {
+    fn check_input(&self, input: &Input) -> Result<()> {
+        check_fit(input)?;
+        if input.polycube.points.len() == self.input.vertex_levels.len() {
+            return Ok(());
+        }
+        Err(Error::new(ErrorKind::Mismatch, "this is not the polycube that was simplified"))
+    }
+
     /// The same result at another scale (lattice steps per unit of the input): the same block structure, on a finer or
     /// coarser lattice. `input` must be what was simplified. Much faster than [`simplify`]: the order of the levels is known.
     ///
     /// # Errors
     /// [`ErrorKind::Mismatch`] if `input` has other cells; those of [`align::rescale`]; [`ErrorKind::Cancelled`].
     pub fn rescaled(&self, input: &Input, scale: f64, context: &Context) -> Result<Self> {
-        check_fit(input)?;
-        if input.polycube.points.len() != self.input.vertex_levels.len() {
-            return Err(Error::new(ErrorKind::Mismatch, "this is not the polycube that was simplified"));
-        }
+        self.check_input(input)?;
         let start = Instant::now();
         let Self { input: polycube, report: old, .. } = self;
-        let options = align::Options { strategy: old.strategy, scale, ..align::Options::default() };
+        let options = align::Options { strategy: old.strategy, ..self.options.alignment(scale, input.polycube) };
         let aligning = context.stage("align", 0.0, 0.2);
         let levels = align::rescale(&polycube.structure, &polycube.placement, &self.levels, &options, &aligning)?;
         let placement: Vec<f64> = levels.iter().map(|&x| x as f64).collect();
         let arrangement = Arrangement::new(&polycube.structure, &placement);
         let broken = arrangement.conflicts();
         let after = broken.is_empty().then(|| count(&arrangement));
-        let (rounds, front, bound) = (old.rounds.clone(), old.front.clone(), old.bound);
-        let alignment = Alignment { levels, before: old.before, after, rounds, broken, front, bound };
+        let (rounds, front, chosen, bound) = (old.rounds.clone(), old.front.clone(), old.chosen, old.bound);
+        let alignment = Alignment { levels, before: old.before, after, rounds, broken, front, chosen, bound };
         let aligned = start.elapsed().as_secs_f64();
-        let report = report(polycube, &alignment, old.strategy, scale);
+        let report = Report::new(polycube, &alignment, old.strategy, scale);
         let morphing = context.stage("morph", 0.2, 1.0);
-        let mut result = finish(input, polycube.clone(), alignment.levels, report, &morphing)?;
+        let mut result = finish(input, polycube.clone(), alignment.levels, report, &self.options, &morphing)?;
         let total = start.elapsed().as_secs_f64();
         result.report.seconds = Seconds { align: aligned, morph: total - aligned, total, ..old.seconds };
         Ok(result)
@@ -228,6 +285,7 @@ fn finish(
     polycube: Polycube,
     levels: Vec<i64>,
     mut report: Report,
+    options: &Options,
     context: &Context,
 ) -> Result<Simplified> {
     let mut result = None;
@@ -237,7 +295,7 @@ fn finish(
         judge(&mut report, input, &polycube, &mesh)?;
         result = Some(mesh);
     }
-    Ok(Simplified { input: polycube, polycube: result, levels, report })
+    Ok(Simplified { input: polycube, polycube: result, levels, report, options: options.clone() })
 }
 
 fn check_fit(input: &Input) -> Result<()> {
@@ -305,30 +363,6 @@ fn straight_edges(polycube: &Polycube, points: &[Point], placement: &[f64]) -> V
         }
     }
     fixed
-}
-
-fn report(polycube: &Polycube, alignment: &Alignment, strategy: Strategy, scale: f64) -> Report {
-    let notes = match alignment.broken.len() {
-        0 => Vec::new(),
-        n => vec![format!("rounding to the lattice made the surface touch or cross itself in {n} places")],
-    };
-    Report {
-        strategy,
-        scale,
-        valid: alignment.after.is_some(),
-        before: alignment.before,
-        after: alignment.after,
-        rounds: alignment.rounds.clone(),
-        front: alignment.front.clone(),
-        bound: alignment.bound,
-        seconds: Seconds::default(),
-        max_displacement: max_displacement(polycube, &alignment.levels, scale),
-        flipped_elements: 0,
-        flipped: Flipped::default(),
-        deviation: polycube.deviation,
-        distortion: None,
-        notes,
-    }
 }
 
 fn max_displacement(polycube: &Polycube, levels: &[i64], scale: f64) -> f64 {

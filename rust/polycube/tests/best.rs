@@ -28,7 +28,7 @@ fn best_is_valid_and_never_worse_than_the_paper_for_any_objective() {
             let effort = Effort { steps_per_level: 50, ..Effort::default() };
             let options = Options { objective, effort, ..Options::default() };
             let best = run(&polycube, &options);
-            let paper = run(&polycube, &Options { strategy: Strategy::Paper, ..options });
+            let paper = run(&polycube, &Options { strategy: Strategy::Paper, ..options.clone() });
             assert!(counted(&best, objective) <= counted(&paper, objective), "seed {seed}, {objective:?}");
             assert!(counted(&best, objective) <= best.before.of(objective), "seed {seed}, {objective:?}");
             assert_eq!(dense::check(&polycube.structure, &best.levels), Ok(()));

@@ -4,9 +4,11 @@
 //! into an integer [`problem`], [`solve`]s it, checks the result exactly, and repeats.
 
 mod classes;
+pub mod guides;
+mod judge;
 mod options;
-mod order;
 mod paper;
+mod place;
 pub mod problem;
 pub mod prove;
 pub mod ranks;
@@ -16,6 +18,7 @@ mod separate;
 pub mod solve;
 mod unit;
 
+pub use guides::{Guides, Symmetry};
 pub use options::{Options, SolverKind, Strategy};
 pub use paper::{Round, neighbours};
 pub use search::Effort;
@@ -24,7 +27,10 @@ use crate::context::Context;
 use crate::error::{Error, ErrorKind, Result};
 use crate::layout::{Counts, count};
 use crate::structure::{Arrangement, Conflict, Placement, Structure};
+use guides::{Guided, guided_start};
+use place::place_in_order;
 use problem::Problem;
+use ranks::Ranks;
 
 /// Levels on the lattice, and how they got there.
 #[derive(Clone, Debug, PartialEq)]
@@ -41,6 +47,8 @@ pub struct Alignment {
     pub broken: Vec<Conflict>,
     /// The trade-off between few blocks and little displacement, from the fewest blocks on; only from [`Strategy::Best`].
     pub front: Vec<TradeOff>,
+    /// Which trade-off of the front the levels are; nothing if they are none.
+    pub chosen: Option<usize>,
     /// How far the objective can go down at most; only from [`Strategy::Best`].
     pub bound: Option<LowerBound>,
 }
@@ -74,30 +82,113 @@ pub struct TradeOff {
 /// others are ordered does not depend on the scale (paper, Fig. 3), nor on units or position of the input.
 ///
 /// # Errors
-/// [`ErrorKind::Option`] for a scale that is not positive or too large for the lattice, [`ErrorKind::Polycube`] for an
-/// input that touches itself, [`ErrorKind::Cancelled`].
+/// [`ErrorKind::Option`] for a scale that is not positive or too large for the lattice and for guides that name what does not exist or
+/// contradict each other, [`ErrorKind::Polycube`] for an input that touches itself, [`ErrorKind::Infeasible`] if no valid polycube with no
+/// more blocks is found that respects the guides, [`ErrorKind::Cancelled`].
 pub fn align(structure: &Structure, input: &[f64], options: &Options, context: &Context) -> Result<Alignment> {
-    let targets = scaled(input, options.scale)?;
     let arrangement = Arrangement::new(structure, input);
     if !arrangement.conflicts().is_empty() {
         return Err(Error::new(ErrorKind::Polycube, "the polycube touches or crosses itself")
             .remedy("validate it to see where, and move the parts apart"));
     }
-    let before = count(&arrangement);
+    let task = Task::new(structure, input, count(&arrangement), options, context)?;
     match options.strategy {
-        Strategy::Naive => Ok(naive(structure, &targets, before)),
-        Strategy::Paper => paper::simplify(structure, input, &targets, before, options, context),
-        Strategy::Best => search::coarsest(structure, input, &targets, before, options, context),
+        Strategy::Naive => naive(&task),
+        Strategy::Paper => checked(structure, paper::simplify(&task, context)?),
+        Strategy::Best => checked(structure, search::coarsest(&task, context)?),
+    }
+}
+
+/// The alignment, if its levels are a valid polycube by the exact check.
+fn checked(structure: &Structure, found: Alignment) -> Result<Alignment> {
+    let placement: Placement = found.levels.iter().map(|&x| x as f64).collect();
+    let arrangement = Arrangement::new(structure, &placement);
+    if arrangement.conflicts().is_empty() && arrangement.inside_out().is_empty() {
+        return Ok(found);
+    }
+    Err(Error::new(ErrorKind::Internal, "the polycube found touches itself"))
+}
+
+/// The levels of another point of the front that [`align`] found with the same `options` (the scale may differ): no search, only
+/// placing. `before` are the counts of the input.
+///
+/// # Errors
+/// [`ErrorKind::Option`] for a scale that is not positive or too large for the lattice, [`ErrorKind::Infeasible`] if what the
+/// guides fix leaves no room at this scale, [`ErrorKind::Cancelled`].
+pub fn place(
+    structure: &Structure,
+    input: &[f64],
+    before: Counts,
+    point: &TradeOff,
+    options: &Options,
+    context: &Context,
+) -> Result<Vec<i64>> {
+    let task = Task::new(structure, input, before, options, context)?;
+    search::place_trade_off(&task, point, context)
+}
+
+/// What every strategy is given.
+struct Task<'a> {
+    structure: &'a Structure,
+    /// The levels as they came.
+    input: &'a [f64],
+    /// A valid placement that respects the guides: the input, if it does.
+    start: Placement,
+    /// The input in lattice steps.
+    targets: Placement,
+    /// What must stay.
+    guided: Guided,
+    /// The counts of the input.
+    before: Counts,
+    options: &'a Options,
+}
+
+impl<'a> Task<'a> {
+    fn new(
+        structure: &'a Structure,
+        input: &'a [f64],
+        before: Counts,
+        options: &'a Options,
+        context: &Context,
+    ) -> Result<Self> {
+        let targets = scaled(input, options.scale)?;
+        let guided = Guided::new(structure, input, &options.guides, options.scale)?;
+        let start = guided_start(structure, input, &guided, context)?;
+        Ok(Self { structure, input, start, targets, guided, before, options })
+    }
+
+    /// The promise: never more blocks than before.
+    fn check_blocks(&self, after: &Counts) -> Result<()> {
+        if after.blocks_padded <= self.before.blocks_padded {
+            return Ok(());
+        }
+        let (now, before) = (after.blocks_padded, self.before.blocks_padded);
+        let message = format!("what the guides ask for takes {now} padded blocks, the input has {before}");
+        Err(Error::new(ErrorKind::Infeasible, message)
+            .remedy("ask for fewer facets together or apart, or use the strategy `best`"))
+    }
+}
+
+impl TradeOff {
+    /// The number of the point that `simplicity` asks for, from 1 (the first of `count` points) to 0 (the last).
+    pub fn index(simplicity: f64, count: usize) -> usize {
+        ((1.0 - simplicity.clamp(0.0, 1.0)) * (count as f64 - 1.0)).round() as usize
+    }
+
+    fn ranks(&self, structure: &Structure) -> Ranks {
+        let placement: Placement = self.order.iter().map(|&r| f64::from(r)).collect();
+        Ranks::new(structure, &placement)
     }
 }
 
 /// The alignment at another scale: the order of `levels`, which [`align`] found at any scale, as near as possible to `input`
 /// at the scale of `options`. Where the order does not matter ([`Strategy::Naive`]), what [`align`] itself would give.
 ///
-/// Takes one integer problem instead of the many of [`align`]. λ is not used.
+/// Takes no search, and no more than sorting. λ is not used.
 ///
 /// # Errors
-/// [`ErrorKind::Option`] for a scale that is not positive or too large for the lattice, [`ErrorKind::Cancelled`].
+/// [`ErrorKind::Option`] for a scale that is not positive or too large for the lattice, [`ErrorKind::Infeasible`] if what the guides
+/// fix leaves no room at this scale, [`ErrorKind::Cancelled`].
 pub fn rescale(
     structure: &Structure,
     input: &[f64],
@@ -106,11 +197,13 @@ pub fn rescale(
     context: &Context,
 ) -> Result<Vec<i64>> {
     let targets = scaled(input, options.scale)?;
+    context.tick(0.0)?;
+    let guided = Guided::new(structure, input, &options.guides, options.scale)?;
     if options.strategy == Strategy::Naive {
-        return Ok(targets.iter().map(|x| x.round() as i64).collect());
+        return guided.rounded(structure, &targets);
     }
-    let valid: Placement = levels.iter().map(|&x| x as f64).collect();
-    Ok(to_integers(&order::place_in_order(structure, &valid, &targets, &*options.solver.solver(), context)?))
+    let order: Placement = levels.iter().map(|&x| x as f64).collect();
+    place_in_order(structure, &Ranks::new(structure, &order), &targets, &guided)
 }
 
 fn scaled(input: &[f64], scale: f64) -> Result<Placement> {
@@ -126,20 +219,14 @@ fn scaled(input: &[f64], scale: f64) -> Result<Placement> {
     Ok(targets)
 }
 
-fn naive(structure: &Structure, targets: &[f64], before: Counts) -> Alignment {
-    let placement: Placement = targets.iter().map(|x| x.round()).collect();
-    let arrangement = Arrangement::new(structure, &placement);
+fn naive(task: &Task) -> Result<Alignment> {
+    let levels = task.guided.rounded(task.structure, &task.targets)?;
+    let placement: Placement = levels.iter().map(|&x| x as f64).collect();
+    let arrangement = Arrangement::new(task.structure, &placement);
     let broken = arrangement.conflicts();
     let after = broken.is_empty().then(|| count(&arrangement));
-    Alignment {
-        levels: to_integers(&placement),
-        before,
-        after,
-        rounds: Vec::new(),
-        broken,
-        front: Vec::new(),
-        bound: None,
-    }
+    let (rounds, front) = (Vec::new(), Vec::new());
+    Ok(Alignment { levels, before: task.before, after, rounds, broken, front, chosen: None, bound: None })
 }
 
 fn to_integers(placement: &[f64]) -> Vec<i64> {

@@ -1,5 +1,6 @@
 //! What the alignment shall do.
 
+use super::guides::Guides;
 use super::search::Effort;
 use super::solve::{ExactSolver, LinearSolver, Solver};
 use crate::layout::Objective;
@@ -29,7 +30,7 @@ pub enum SolverKind {
 }
 
 /// What [`align`](super::align()) shall do.
-#[derive(Clone, Copy, Debug, PartialEq, serde::Serialize)]
+#[derive(Clone, Debug, PartialEq, serde::Serialize)]
 pub struct Options {
     /// How the levels find their places.
     pub strategy: Strategy,
@@ -47,6 +48,8 @@ pub struct Options {
     pub simplicity: f64,
     /// The farthest that [`Strategy::Best`] may move a corner, in units of the input, where the lattice allows it.
     pub max_displacement: Option<f64>,
+    /// What must stay; every strategy respects it.
+    pub guides: Guides,
 }
 
 impl Default for Options {
@@ -60,6 +63,7 @@ impl Default for Options {
             effort: Effort::default(),
             simplicity: 1.0,
             max_displacement: None,
+            guides: Guides::default(),
         }
     }
 }

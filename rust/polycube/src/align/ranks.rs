@@ -40,15 +40,15 @@ impl Ranks {
         self.of_level.iter().map(|&r| f64::from(r)).collect()
     }
 
-    /// The least Σ corners · (x − target)² along `axis` over placements with this order and planes `gap` apart.
+    /// The least Σ weight · (x − target)² along `axis` over placements with this order and planes `gap` apart.
     ///
     /// Subtracting `gap` per plane leaves an isotonic regression, solved by pooling adjacent violators in O(n).
-    pub fn shape_cost(&self, structure: &Structure, targets: &[f64], gap: f64, axis: usize) -> f64 {
+    pub fn shape_cost(&self, structure: &Structure, weights: &[f64], targets: &[f64], gap: f64, axis: usize) -> f64 {
         let mut planes = vec![(0.0, 0.0, 0.0); self.planes[axis]];
-        for ((level, &rank), target) in structure.levels.iter().zip(&self.of_level).zip(targets) {
+        for (((level, &rank), target), &w) in structure.levels.iter().zip(&self.of_level).zip(targets).zip(weights) {
             if level.axis == axis {
                 let plane = &mut planes[usize::from(rank) - 1];
-                let (w, t) = (f64::from(level.corners), target - gap * f64::from(rank));
+                let t = target - gap * f64::from(rank);
                 *plane = (plane.0 + w, plane.1 + w * t, plane.2 + w * t * t);
             }
         }

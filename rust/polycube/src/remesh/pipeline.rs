@@ -107,8 +107,10 @@ pub(super) struct Meshed {
 /// The simplified polycube at the wanted size.
 fn sized(input: &Input, options: &RemeshOptions, context: &Context) -> Result<Simplified> {
     let near = diagonal(input.polycube) / 12.0;
-    let simplifying =
-        simplify::Options { max_displacement: options.simplify.max_displacement.or(Some(near)), ..options.simplify };
+    let simplifying = simplify::Options {
+        max_displacement: options.simplify.max_displacement.or(Some(near)),
+        ..options.simplify.clone()
+    };
     let found = simplify(input, &simplifying, &context.stage("simplify", 0.0, 0.6))?;
     let scale = match options.size {
         Some(size) => scale_for(input, &found, size, options.padding, &context.stage("scale", 0.6, 0.7))?,

@@ -113,7 +113,8 @@ impl Search<'_> {
 
     fn count(&self, scale: f64, context: &Context) -> Result<f64> {
         let Simplified { input, levels, report, .. } = self.simplified;
-        let options = Options { strategy: report.strategy, scale, ..Options::default() };
+        let guides = self.simplified.options.guides.clone();
+        let options = Options { strategy: report.strategy, scale, guides, ..Options::default() };
         let levels = align::rescale(&input.structure, &input.placement, levels, &options, context)?;
         Ok((count_hexes(&input.structure, &levels, self.padding) as f64).max(0.5))
     }

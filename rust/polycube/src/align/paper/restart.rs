@@ -1,65 +1,115 @@
 //! Algorithm 1 until a fresh start finds nothing more.
 
-use super::Round;
-use super::{Settings, run};
-use crate::align::order::place_in_order;
+use super::{Round, Settings, Step, run};
+use crate::align::guides::{Guided, is_valid};
+use crate::align::judge::Judge;
+use crate::align::place::place_in_order;
+use crate::align::ranks::Ranks;
 use crate::align::unit::Unit;
-use crate::align::{Alignment, Options, SolverKind, to_integers};
+use crate::align::{Alignment, SolverKind, Task};
 use crate::context::Context;
 use crate::error::Result;
-use crate::layout::{Counts, count};
-use crate::structure::{Arrangement, Structure};
+use crate::layout::Counts;
+use crate::structure::{Placement, Structure};
+use rayon::prelude::*;
 
 /// Algorithm 1 from λ = 1 again and again until it finds nothing more, so that a second call changes nothing.
-pub fn simplify(
-    structure: &Structure,
-    input: &[f64],
-    targets: &[f64],
-    before: Counts,
-    options: &Options,
-    context: &Context,
-) -> Result<Alignment> {
-    let solver = options.solver.solver();
-    let oblique_planes = options.solver == SolverKind::Linear;
-    let settings = Settings { lambda_min: options.lambda_min, solver: &*solver, oblique_planes };
-    let mut best = place_in_order(structure, input, targets, &*solver, context)?;
-    let mut after = before;
-    let mut rounds = Vec::new();
-    let mut from = input.to_vec();
-    loop {
-        let (found, steps) = improve(structure, &from, input, &settings, context)?;
-        let counts = count(&found);
-        let improved = counts.blocks_padded < after.blocks_padded;
-        if rounds.is_empty() || improved {
-            rounds.extend(steps);
-        }
-        if !improved {
-            break;
-        }
-        best = place_in_order(structure, found.placement(), targets, &*solver, context)?;
-        from.clone_from(&best);
-        after = counts;
-    }
-    let levels = to_integers(&best);
-    Ok(Alignment { levels, before, after: Some(after), rounds, broken: Vec::new(), front: Vec::new(), bound: None })
+///
+/// # Errors
+/// [`ErrorKind::Infeasible`](crate::ErrorKind::Infeasible) if what the guides ask for has more blocks than the input.
+pub fn simplify(task: &Task, context: &Context) -> Result<Alignment> {
+    let Descent { levels, after, rounds } = descend(task, &task.targets, &task.guided, context)?;
+    task.check_blocks(&after)?;
+    Ok(Alignment {
+        levels,
+        before: task.before,
+        after: Some(after),
+        rounds,
+        broken: Vec::new(),
+        front: Vec::new(),
+        chosen: None,
+        bound: None,
+    })
 }
 
-/// One run of Algorithm 1 on `from`, settled near `input` or, if only that is as coarse, near `from`.
-fn improve<'a>(
-    structure: &'a Structure,
+/// Where repeated runs of Algorithm 1 end.
+pub struct Descent {
+    /// The lattice coordinate of every level.
+    pub levels: Vec<i64>,
+    /// The counts there.
+    pub after: Counts,
+    /// The rounds of the runs that found something.
+    pub rounds: Vec<Round>,
+}
+
+/// Runs of Algorithm 1, each from where the last ended, placed near `targets` as `placing` has it.
+pub fn descend(task: &Task, targets: &[f64], placing: &Guided, context: &Context) -> Result<Descent> {
+    let structure = task.structure;
+    let solver = task.options.solver.solver();
+    let oblique_planes = task.options.solver == SolverKind::Linear;
+    let settings =
+        Settings { lambda_min: task.options.lambda_min, solver: &*solver, guided: &task.guided, oblique_planes };
+    let place = |order: &[f64]| place_in_order(structure, &Ranks::new(structure, order), targets, placing);
+    let mut best = place(&task.start)?;
+    let mut judge = Judge::new(structure);
+    let mut after = if task.start == task.input { task.before } else { judge.counts_of(&task.start) };
+    let mut rounds = Vec::new();
+    let mut from = task.start.clone();
+    loop {
+        let (found, steps) = improve(task, &from, &settings, context)?;
+        let counts = found.as_ref().map(|f| judge.counts_of(f));
+        let improved = counts.filter(|c| c.blocks_padded < after.blocks_padded);
+        if rounds.is_empty() || improved.is_some() {
+            rounds.extend(counted(structure, steps));
+        }
+        let (Some(found), Some(counts)) = (found, improved) else { break };
+        best = place(&found)?;
+        from = best.iter().map(|&x| x as f64).collect();
+        after = counts;
+    }
+    Ok(Descent { levels: best, after, rounds })
+}
+
+/// One run of Algorithm 1 on `from`, settled near the start or, if only that is as coarse, near `from`; nothing if the guides do
+/// not allow where it ends.
+fn improve(
+    task: &Task,
     from: &[f64],
-    input: &[f64],
     settings: &Settings,
     context: &Context,
-) -> Result<(Arrangement<'a>, Vec<Round>)> {
+) -> Result<(Option<Placement>, Vec<Step>)> {
+    let structure = task.structure;
     let own = Unit::of(structure, from).apply(structure, from);
     let outcome = run(structure, &own, settings, context)?;
-    let near = outcome.settle(&own, settings.solver, context)?;
-    if from == input {
-        return Ok((near, outcome.rounds));
+    let near = guided(task, outcome.settle(&own, settings.solver, context)?);
+    if from == task.start {
+        return Ok((near, outcome.steps));
     }
-    let original = Unit::of(structure, input).apply(structure, input);
-    let faithful = outcome.settle(&original, settings.solver, context)?;
-    let coarser = count(&faithful).blocks_padded <= count(&near).blocks_padded;
-    Ok((if coarser { faithful } else { near }, outcome.rounds))
+    let original = Unit::of(structure, &task.start).apply(structure, &task.start);
+    let faithful = guided(task, outcome.settle(&original, settings.solver, context)?);
+    let mut judge = Judge::new(structure);
+    let mut blocks = |p: &Option<Placement>| p.as_ref().map_or(usize::MAX, |p| judge.counts_of(p).blocks_padded);
+    let coarser = blocks(&faithful) <= blocks(&near);
+    Ok((if coarser { faithful } else { near }, outcome.steps))
+}
+
+/// The placement if the guides allow it; else the one with everything half way to its mirror image, if that is valid.
+fn guided(task: &Task, found: Placement) -> Option<Placement> {
+    let structure = task.structure;
+    let allowed = |placement: &[f64]| task.guided.allows(&Ranks::new(structure, placement));
+    if allowed(&found) {
+        return Some(found);
+    }
+    let averaged: Placement = task.guided.averaged(structure, &found);
+    (allowed(&averaged) && is_valid(structure, &averaged)).then_some(averaged)
+}
+
+/// The steps with what their results count.
+fn counted(structure: &Structure, steps: Vec<Step>) -> Vec<Round> {
+    let round = |judge: &mut Judge, step: Step| {
+        let Step { lambda, pairs, alignments, levels } = step;
+        let placement: Placement = levels.iter().map(|&x| x as f64).collect();
+        Round { lambda, pairs, alignments, counts: judge.counts_of(&placement), levels }
+    };
+    steps.into_par_iter().with_min_len(4).map_init(|| Judge::new(structure), round).collect()
 }

@@ -13,7 +13,7 @@ use crate::structure::{LevelBox, Structure, rectangles};
 const MOST_PAIRS: usize = 500_000;
 
 /// Holds when the relation of two levels is among those in the mask.
-type Condition = (u32, u32, u8);
+pub(super) type Condition = (u32, u32, u8);
 
 /// At least one of its conditions holds.
 type Clause = Vec<Condition>;

@@ -63,19 +63,20 @@
 mod bound;
 mod clauses;
 mod grid;
-mod judge;
 mod outline;
 mod relations;
 mod tree;
 
+use super::guides::Guided;
+use super::judge::Judge;
 use super::ranks::Ranks;
 use crate::context::Context;
 use crate::error::{Error, ErrorKind, Result};
 use crate::layout::Objective;
 use crate::structure::Structure;
 use bound::Bound;
-use clauses::Rules;
-use judge::Judge;
+use clauses::{Condition, Rules};
+use relations::{ABOVE, BELOW, EQUAL};
 use std::time::Duration;
 use tree::{Limits, Tree};
 
@@ -132,13 +133,38 @@ pub fn prove(
     time_limit: Option<Duration>,
     context: &Context,
 ) -> Result<Proof> {
-    let mut judge = Judge::new(structure, objective);
-    let count = judge.cost(incumbent).ok_or_else(|| {
-        Error::new(ErrorKind::Polycube, "the order to start from is not a valid polycube")
-            .remedy("start from the order of the input, or from a result of `align`")
-    })?;
-    let (rules, root) =
-        Rules::new(structure).map_err(|_| Error::new(ErrorKind::Internal, "the rules exclude a valid order"))?;
-    let tree = Tree::new(rules, Bound::new(structure), objective, judge, (incumbent.clone(), count));
+    let free = Guided::free(structure);
+    prove_guided(structure, &free, objective, incumbent, (budget, time_limit), context)
+}
+
+/// [`prove`] for the orders that guides allow, of which `incumbent` must be one: both the bound and what is found are theirs.
+///
+/// What must be equal and what must differ is propagated from the start; orders that are not mirrored, or crowd what is
+/// fixed, are dropped once they are complete.
+pub(super) fn prove_guided(
+    structure: &Structure,
+    guided: &Guided,
+    objective: Objective,
+    incumbent: &Ranks,
+    (budget, time_limit): (u64, Option<Duration>),
+    context: &Context,
+) -> Result<Proof> {
+    let mut judge = Judge::new(structure);
+    let count =
+        Some(incumbent).filter(|i| guided.allows(i)).and_then(|i| judge.cost(objective, i)).ok_or_else(|| {
+            Error::new(ErrorKind::Polycube, "the order to start from is not a valid polycube")
+                .remedy("start from the order of the input, or from a result of `align`")
+        })?;
+    let excluded = |_| Error::new(ErrorKind::Internal, "the rules exclude a valid order");
+    let (rules, mut root) = Rules::new(structure).map_err(excluded)?;
+    rules.restrict(&mut root, &conditions(guided)).map_err(excluded)?;
+    let tree = Tree::new(rules, Bound::new(structure), objective, (judge, guided), (incumbent.clone(), count));
     tree.run(root, &Limits { nodes: budget, time: time_limit }, context)
+}
+
+/// What guides say about pairs of levels.
+fn conditions(guided: &Guided) -> Vec<Condition> {
+    let equal = (0..).zip(&guided.partners).flat_map(|(l, p)| p.iter().map(move |&m| (l, m, EQUAL)));
+    let apart = guided.apart().iter().map(|&[a, b]| (a, b, BELOW | ABOVE));
+    equal.chain(apart).collect()
 }

@@ -3,8 +3,9 @@
 use super::Proof;
 use super::bound::{Bound, Least};
 use super::clauses::Rules;
-use super::judge::Judge;
 use super::relations::{ABOVE, BELOW, EQUAL, Relations, is_decided};
+use crate::align::guides::Guided;
+use crate::align::judge::Judge;
 use crate::align::ranks::Ranks;
 use crate::context::Context;
 use crate::error::Result;
@@ -46,6 +47,7 @@ pub(super) struct Tree<'a> {
     bound: Bound,
     objective: Objective,
     judge: Judge<'a>,
+    guided: &'a Guided,
     best: Ranks,
     count: usize,
     nodes: u64,
@@ -57,11 +59,17 @@ pub(super) struct Tree<'a> {
 }
 
 impl<'a> Tree<'a> {
-    pub fn new(rules: Rules<'a>, bound: Bound, objective: Objective, judge: Judge<'a>, best: (Ranks, usize)) -> Self {
+    pub fn new(
+        rules: Rules<'a>,
+        bound: Bound,
+        objective: Objective,
+        (judge, guided): (Judge<'a>, &'a Guided),
+        best: (Ranks, usize),
+    ) -> Self {
         let weight = bound.weights(&rules.pairs);
         let (heap, store, free) = (BinaryHeap::new(), Vec::new(), Vec::new());
         let (best, count) = best;
-        Self { rules, bound, objective, judge, best, count, nodes: 0, heap, store, free, weight, pushed: 0 }
+        Self { rules, bound, objective, judge, guided, best, count, nodes: 0, heap, store, free, weight, pushed: 0 }
     }
 
     /// Searches from `root` until nothing better is possible or a limit is reached.
@@ -116,7 +124,9 @@ impl<'a> Tree<'a> {
     fn assess(&mut self, relations: Relations, inherited: usize) -> Option<Child> {
         if self.undecided(&relations).is_none() {
             let ranks = self.ranks(&relations);
-            if let Some(cost) = self.judge.cost(&ranks).filter(|c| *c < self.count) {
+            let cost =
+                self.judge.cost(self.objective, &ranks).filter(|c| *c < self.count && self.guided.allows(&ranks));
+            if let Some(cost) = cost {
                 (self.best, self.count) = (ranks, cost);
             }
             return None;

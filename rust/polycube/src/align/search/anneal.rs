@@ -2,6 +2,7 @@
 
 use super::front::Front;
 use super::moves::Moves;
+use crate::align::guides::Guided;
 use crate::align::ranks::Ranks;
 use crate::context::Context;
 use crate::error::Result;
@@ -18,7 +19,7 @@ pub struct State {
     pub ranks: Ranks,
     /// What the objective counts.
     pub count: usize,
-    /// The least Σ corners · (x − target)² of each axis for this order, in squared units of the input.
+    /// The least Σ weight · (x − target)² of each axis for this order, in squared units of the input.
     pub shape: [f64; 3],
 }
 
@@ -37,8 +38,12 @@ pub struct Landscape<'a> {
     pub moves: &'a Moves,
     /// The number to make small.
     pub objective: Objective,
+    /// What every order must respect.
+    pub guided: &'a Guided,
     /// The levels of the input.
     pub targets: &'a [f64],
+    /// How much the displacement of each level counts.
+    pub weights: &'a [f64],
     /// The least distance of two planes, in units of the input.
     pub gap: f64,
     /// The displacement of all corners, as a root mean square in units of the input, that doubles the count at weight 1.
@@ -83,13 +88,17 @@ impl<'a, R: PrimInt> Chain<'a, R> {
         Some(State { ranks, count, shape })
     }
 
-    /// What the objective counts in an order; nothing if it is no valid polycube.
+    /// What the objective counts in an order; nothing if it is no valid polycube or the guides do not allow it.
     pub fn count(&mut self, ranks: &Ranks) -> Option<usize> {
+        if !self.landscape.guided.allows(ranks) {
+            return None;
+        }
         self.rows.count(self.landscape.objective, &ranks.of_level, ranks.planes)
     }
 
     fn shape(&self, ranks: &Ranks, axis: usize) -> f64 {
-        ranks.shape_cost(self.landscape.structure, self.landscape.targets, self.landscape.gap, axis)
+        let Landscape { structure, weights, targets, gap, .. } = *self.landscape;
+        ranks.shape_cost(structure, weights, targets, gap, axis)
     }
 
     /// The count, raised by the displacement.

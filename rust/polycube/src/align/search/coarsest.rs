@@ -1,52 +1,51 @@
 //! The strategy `best`, from the input to the chosen trade-off.
 
 use super::anneal::State;
-use super::{Found, is_searchable, search};
-use crate::align::order::place_in_order;
-use crate::align::paper::{Outcome, simplify};
-use crate::align::solve::Solver;
+use super::{is_searchable, search};
+use crate::align::guides::Guided;
+use crate::align::judge::Judge;
+use crate::align::paper::{Outcome, descend, simplify};
+use crate::align::place::place_in_order;
+use crate::align::prove::Proof;
+use crate::align::ranks::Ranks;
 use crate::align::unit::Unit;
-use crate::align::{Alignment, LowerBound, Options, TradeOff, to_integers};
+use crate::align::{Alignment, LowerBound, Task, TradeOff};
 use crate::context::Context;
 use crate::error::Result;
-use crate::layout::{Counts, Objective, count};
-use crate::structure::{Arrangement, Placement, Structure};
+use crate::structure::Placement;
 
 /// Algorithm 1, then the search.
-pub fn coarsest(
-    structure: &Structure,
-    input: &[f64],
-    targets: &[f64],
-    before: Counts,
-    options: &Options,
-    context: &Context,
-) -> Result<Alignment> {
+pub fn coarsest(task: &Task, context: &Context) -> Result<Alignment> {
     let aligning = context.stage("align", 0.0, 0.2);
-    if !is_searchable(structure) {
-        return simplify(structure, input, targets, before, options, &aligning);
+    if !is_searchable(task.structure) {
+        return simplify(task, &aligning);
     }
+    let structure = task.structure;
     // On its own lattice Algorithm 1 gives the search the same start at every scale.
-    let own = Unit::of(structure, input).apply(structure, input);
-    let paper = simplify(structure, input, &own, before, options, &aligning)?;
+    let own = Unit::of(structure, task.input).apply(structure, task.input);
+    let paper = descend(task, &own, &Guided::free(structure), &aligning)?;
     let start: Placement = paper.levels.iter().map(|&x| x as f64).collect();
-    let searching = context.stage("search", 0.2, 1.0);
-    let found = search(structure, input, &start, options.objective, &options.effort, &searching)?;
-    let solver = options.solver.solver();
-    let chosen = choose(structure, &found, targets, options, &*solver, context)?;
-    let order = relaxed(structure, input, &chosen, options.objective, &*solver, context)?;
-    let levels = place_in_order(structure, &order, targets, &*solver, context)?;
-    let after = count(&Arrangement::new(structure, &levels));
-    if after.blocks_padded > before.blocks_padded {
-        // Fewer patches can mean more blocks; the promise is never more of them than there were.
-        return simplify(structure, input, targets, before, options, context);
+    let found = search(task, &start, &context.stage("search", 0.2, 1.0))?;
+    // Fewer patches can mean more blocks; the promise is never more of them than there were.
+    let mut judge = Judge::new(structure);
+    let most = task.before.blocks_padded;
+    let keeps_promise = |s: &&State| judge.counts(&s.ranks).is_some_and(|c| c.blocks_padded <= most);
+    let front: Vec<TradeOff> = found.front.states().filter(keeps_promise).map(|s| trade_off(task, s)).collect();
+    if front.is_empty() {
+        return simplify(task, context);
     }
-    let front = found.front.states().map(|s| trade_off(structure, s)).collect();
-    let bound = Some(LowerBound { count: found.proof.bound, proven: found.proof.proven, nodes: found.proof.nodes });
-    Ok(Alignment { levels: to_integers(&levels), after: Some(after), front, bound, ..paper })
+    let chosen = choose(task, &front)?;
+    let levels = place_trade_off(task, &front[chosen], context)?;
+    let placement: Placement = levels.iter().map(|&x| x as f64).collect();
+    let after = Some(judge.counts_of(&placement));
+    let Proof { bound, proven, nodes, .. } = found.proof;
+    let bound = Some(LowerBound { count: bound, proven: proven && front[0].count == bound, nodes });
+    let (before, rounds) = (task.before, paper.rounds);
+    Ok(Alignment { levels, before, after, rounds, broken: Vec::new(), front, chosen: Some(chosen), bound })
 }
 
-fn trade_off(structure: &Structure, state: &State) -> TradeOff {
-    let corners = structure.corners.len() as f64;
+fn trade_off(task: &Task, state: &State) -> TradeOff {
+    let corners = task.structure.corners.len() as f64;
     TradeOff {
         count: state.count,
         displacement: (state.shape_cost() / corners).sqrt(),
@@ -54,42 +53,41 @@ fn trade_off(structure: &Structure, state: &State) -> TradeOff {
     }
 }
 
-/// The order on the front that the options ask for: the coarsest within the displacement allowed, or, where none is, the
-/// one with the least displacement.
-fn choose(
-    structure: &Structure,
-    found: &Found,
-    targets: &[f64],
-    options: &Options,
-    solver: &dyn Solver,
-    context: &Context,
-) -> Result<Placement> {
-    let states: Vec<&State> = found.front.states().collect();
-    let skipped = ((1.0 - options.simplicity.clamp(0.0, 1.0)) * (states.len() as f64 - 1.0)).round() as usize;
-    for state in &states[skipped..] {
-        let placement = state.ranks.placement();
-        let levels = place_in_order(structure, &placement, targets, solver, context)?;
-        let moved = structure.max_displacement(targets, &levels) / options.scale;
+/// The trade-off that the options ask for: the coarsest within the displacement allowed or, where none is, the one with
+/// the least displacement.
+fn choose(task: &Task, front: &[TradeOff]) -> Result<usize> {
+    let options = task.options;
+    let first = TradeOff::index(options.simplicity, front.len());
+    for (index, point) in front.iter().enumerate().skip(first) {
+        let levels = place_in_order(task.structure, &point.ranks(task.structure), &task.targets, &task.guided)?;
+        let placement: Placement = levels.iter().map(|&x| x as f64).collect();
+        let moved = task.structure.max_displacement(&task.targets, &placement) / options.scale;
         if options.max_displacement.is_none_or(|limit| moved <= limit) {
-            return Ok(placement);
+            return Ok(index);
         }
     }
-    Ok(states.last().map_or_else(|| found.placement.clone(), |s| s.ranks.placement()))
+    Ok(front.len() - 1)
 }
 
-/// The placement with the alignments of `found` nearest to the input, if it counts no more; else `found`.
-fn relaxed(
-    structure: &Structure,
-    input: &[f64],
-    found: &[f64],
-    objective: Objective,
-    solver: &dyn Solver,
-    context: &Context,
-) -> Result<Placement> {
-    let fine = Unit::of(structure, input).apply(structure, input);
-    let start = place_in_order(structure, found, &fine, solver, context)?;
+/// The levels of a trade-off: its alignments as near to the input as they can be, on the lattice that is asked for.
+pub fn place_trade_off(task: &Task, point: &TradeOff, context: &Context) -> Result<Vec<i64>> {
+    let structure = task.structure;
+    let order = relaxed(task, &point.ranks(structure), context)?;
+    place_in_order(structure, &order, &task.targets, &task.guided)
+}
+
+/// The order with the alignments of `found` nearest to the input, if it counts no more and the guides allow it; else `found`.
+fn relaxed(task: &Task, found: &Ranks, context: &Context) -> Result<Ranks> {
+    let Task { structure, options, .. } = *task;
+    let fine = Unit::of(structure, task.input).apply(structure, task.input);
+    let start = place_in_order(structure, found, &fine, &Guided::free(structure))?;
+    let start: Placement = start.iter().map(|&x| x as f64).collect();
     let outcome = Outcome::of(structure, &start);
-    let near = outcome.settle(&fine, solver, context)?;
-    let no_worse = count(&near).of(objective) <= count(&outcome.arrangement).of(objective);
-    Ok(if no_worse { near.placement().to_vec() } else { start })
+    let near = outcome.settle(&fine, &*options.solver.solver(), context)?;
+    let order = Ranks::new(structure, &near);
+    let mut judge = Judge::new(structure);
+    let (now, then) = (judge.counts_of(&near), judge.counts_of(&start));
+    let no_worse =
+        now.of(options.objective) <= then.of(options.objective) && now.blocks_padded <= task.before.blocks_padded;
+    Ok(if no_worse && task.guided.allows(&order) { order } else { found.clone() })
 }

@@ -6,17 +6,18 @@ mod front;
 mod greedy;
 mod moves;
 
-pub use coarsest::coarsest;
+pub use coarsest::{coarsest, place_trade_off};
+pub use moves::Moves;
 
-use super::prove::{Proof, prove};
+use super::Task;
+use super::prove::{Proof, prove_guided};
 use super::ranks::Ranks;
 use crate::context::Context;
 use crate::error::Result;
-use crate::layout::{Objective, Rows};
-use crate::structure::{Placement, Structure};
+use crate::layout::Rows;
+use crate::structure::Structure;
 use anneal::{Chain, Landscape, Schedule, State};
 use front::Front;
-use moves::Moves;
 use num_traits::PrimInt;
 use std::time::{Duration, Instant};
 
@@ -45,10 +46,8 @@ const CHAINS: [Schedule; 4] = [
     Schedule { seed: 4, steps: 0, hot: 0.05, cold: 0.002, weight: 2.0 },
 ];
 
-/// The best order found, and the trade-offs met on the way.
+/// The trade-offs met on the way.
 pub struct Found {
-    /// A placement with that order.
-    pub placement: Placement,
     /// Orders between the coarsest and the input.
     pub front: Front,
     /// What is known of the least count.
@@ -65,28 +64,31 @@ fn levels_along_rows(structure: &Structure) -> usize {
     structure.levels.iter().filter(|l| l.axis == axis).count()
 }
 
-/// Searches for the order with the smallest count, starting from `paper`, a valid placement, and from `input`.
+/// How much more than any other the displacement of a fixed level counts.
+const FIXED: f64 = 1e4;
+
+/// Searches for the order with the smallest count, starting from that of `paper`, a valid placement, and from that of the input.
 ///
-/// The result counts no more than `paper`, than `input`, and than greedy merging from `input`.
-pub fn search(
-    structure: &Structure,
-    input: &[f64],
-    paper: &[f64],
-    objective: Objective,
-    effort: &Effort,
-    context: &Context,
-) -> Result<Found> {
-    let moves = Moves::new(structure);
+/// The result counts no more than either, and than greedy merging from the input. The start of the task stands for the input
+/// where guides do not allow the input itself.
+pub fn search(task: &Task, paper: &[f64], context: &Context) -> Result<Found> {
+    let Task { structure, input, guided, options, .. } = task;
+    let effort = &options.effort;
+    let moves = Moves::new(structure, guided);
+    let mut weights: Vec<f64> = structure.levels.iter().map(|l| f64::from(l.corners)).collect();
+    guided.fixed().for_each(|(l, _)| weights[l as usize] *= FIXED);
     let landscape = Landscape {
         structure,
         moves: &moves,
-        objective,
+        objective: options.objective,
+        guided,
         targets: input,
+        weights: &weights,
         gap: structure.shortest_edge(input) / 2.0,
         unit: diagonal(structure, input),
         deadline: effort.time_limit.map(|limit| Instant::now() + limit),
     };
-    let starts = [Ranks::new(structure, paper), Ranks::new(structure, input)];
+    let starts = [Ranks::new(structure, paper), Ranks::new(structure, &task.start)];
     if levels_along_rows(structure) <= Rows::<u64>::capacity() {
         run::<u64>(&landscape, &starts, effort, context)
     } else {
@@ -113,11 +115,12 @@ fn run<R: PrimInt + Send>(
     // The front holds every state accepted on the way, so it begins with the best of them.
     let incumbent = front.states().next().unwrap_or(&merged).ranks.clone();
     let left = landscape.deadline.map(|d| d.saturating_duration_since(Instant::now()));
-    let proof = prove(landscape.structure, landscape.objective, &incumbent, effort.proof_nodes, left, context)?;
+    let limits = (effort.proof_nodes, left);
+    let proof = prove_guided(landscape.structure, landscape.guided, landscape.objective, &incumbent, limits, context)?;
     if let Some(state) = chain.state(proof.best.clone()) {
         front.offer(&state);
     }
-    Ok(Found { placement: proof.best.placement(), front, proof })
+    Ok(Found { front, proof })
 }
 
 /// All chains, two at a time. What they find does not depend on how they are scheduled.

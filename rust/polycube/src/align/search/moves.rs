@@ -1,5 +1,6 @@
 //! Small changes of an order of levels: the steps of a search.
 
+use crate::align::guides::Guided;
 use crate::align::ranks::Ranks;
 use crate::generate::SplitMix64;
 use crate::structure::Structure;
@@ -9,17 +10,21 @@ const BETWEEN: i32 = 64;
 /// The farthest that a level jumps, in planes.
 const REACH: u64 = 3;
 
-/// The neighbourhood of orders: which levels an edge keeps below which.
+/// The neighbourhood of orders: which levels an edge keeps below which, and which move as one.
 pub struct Moves {
     axis_of: Vec<usize>,
     by_axis: [Vec<u32>; 3],
     below: Vec<Vec<u32>>,
     above: Vec<Vec<u32>>,
+    /// For each level those that guides keep in one plane with it.
+    partners: Vec<Vec<u32>>,
+    /// Along each axis the mirror image of each level.
+    images: [Option<Vec<u32>>; 3],
 }
 
 impl Moves {
-    /// The moves of a structure.
-    pub fn new(structure: &Structure) -> Self {
+    /// The moves of a structure that keep together, and mirrored, what guides want so.
+    pub fn new(structure: &Structure, guided: &Guided) -> Self {
         let mut below = vec![Vec::new(); structure.levels.len()];
         let mut above = below.clone();
         for edge in &structure.edges {
@@ -33,7 +38,8 @@ impl Moves {
         }
         let axis_of: Vec<usize> = structure.levels.iter().map(|l| l.axis).collect();
         let on = |axis| (0..axis_of.len() as u32).filter(|&l| axis_of[l as usize] == axis).collect();
-        Self { by_axis: std::array::from_fn(on), axis_of, below, above }
+        let images = std::array::from_fn(|axis| guided.mirrors[axis].as_ref().map(|m| m.image.clone()));
+        Self { by_axis: std::array::from_fn(on), axis_of, below, above, partners: guided.partners.clone(), images }
     }
 
     /// A random change of `from` and the axis it is on, or nothing if the one drawn breaks an edge.
@@ -53,9 +59,10 @@ impl Moves {
         } else {
             let planes = 1 + random.below(REACH) as i32;
             let onto = if random.one_in(2) { 0 } else { BETWEEN / 2 };
-            keys[self.slot(axis, level)] = here + direction * (planes * BETWEEN - onto);
-            self.clear_the_way(axis, level, direction, kind < 4, &mut keys)?;
+            let to = here + direction * (planes * BETWEEN - onto);
+            self.clear_the_way(axis, (level, to), direction, kind < 4, &mut keys)?;
         }
+        self.mirror(axis, from, &mut keys)?;
         let mut next = from.clone();
         next.set_axis(axis, &self.by_axis[axis], &keys);
         (next.of_level != from.of_level).then_some((next, axis))
@@ -72,7 +79,10 @@ impl Moves {
             return None;
         }
         let levels = &self.by_axis[axis];
-        let keys: Vec<u16> = levels.iter().map(|&l| if l == level { to } else { rank(&l) }).collect();
+        let follows = |l: u32| l == level || self.partners[level as usize].contains(&l);
+        let key = |l: &u32| BETWEEN * i32::from(if follows(*l) { to } else { rank(l) });
+        let mut keys: Vec<i32> = levels.iter().map(key).collect();
+        self.mirror(axis, from, &mut keys)?;
         let mut next = from.clone();
         next.set_axis(axis, levels, &keys);
         Some(next)
@@ -82,24 +92,57 @@ impl Moves {
         self.by_axis[axis].partition_point(|&l| l < level)
     }
 
-    /// Moves the levels that an edge keeps ahead of `level` to just ahead of it, and so on; nothing if that is not allowed.
-    fn clear_the_way(&self, axis: usize, level: u32, direction: i32, push: bool, keys: &mut [i32]) -> Option<()> {
-        let mut stack = vec![level];
+    /// Gives the images of all levels whose keys changed the mirrored keys; nothing if both changed to what does not fit.
+    fn mirror(&self, axis: usize, from: &Ranks, keys: &mut [i32]) -> Option<()> {
+        let Some(images) = &self.images[axis] else { return Some(()) };
+        let whole = BETWEEN * (from.planes[axis] as i32 + 1);
+        let old = |l: u32| BETWEEN * i32::from(from.of_level[l as usize]);
+        let moved: Vec<(u32, i32)> =
+            self.by_axis[axis].iter().zip(&*keys).filter(|(l, k)| old(**l) != **k).map(|(&l, &k)| (l, k)).collect();
+        for (level, key) in moved {
+            let image = images[level as usize];
+            let its = &mut keys[self.slot(axis, image)];
+            if *its != old(image) && *its != whole - key {
+                return None;
+            }
+            *its = whole - key;
+        }
+        Some(())
+    }
+
+    /// Moves a level, with its partners, to a key, and the levels that an edge keeps ahead of it to just ahead of it, and so on; nothing if
+    /// that is not allowed.
+    fn clear_the_way(
+        &self,
+        axis: usize,
+        (level, to): (u32, i32),
+        direction: i32,
+        push: bool,
+        keys: &mut [i32],
+    ) -> Option<()> {
+        let mut stack = Vec::new();
+        self.bring(axis, level, to, keys, &mut stack);
         while let Some(l) = stack.pop() {
             let here = keys[self.slot(axis, l)];
             let ahead = if direction > 0 { &self.above[l as usize] } else { &self.below[l as usize] };
             for &m in ahead {
-                let key = &mut keys[self.slot(axis, m)];
-                if direction * *key > direction * here {
+                if direction * keys[self.slot(axis, m)] > direction * here {
                     continue;
                 }
                 if !push {
                     return None;
                 }
-                *key = here + direction;
-                stack.push(m);
+                self.bring(axis, m, here + direction, keys, &mut stack);
             }
         }
         Some(())
+    }
+
+    /// Gives a level and its partners a key.
+    fn bring(&self, axis: usize, level: u32, key: i32, keys: &mut [i32], moved: &mut Vec<u32>) {
+        for &l in std::iter::once(&level).chain(&self.partners[level as usize]) {
+            keys[self.slot(axis, l)] = key;
+            moved.push(l);
+        }
     }
 }

@@ -10,7 +10,7 @@ mod sheets;
 mod tests;
 mod valid;
 
-use super::Objective;
+use super::{Counts, Objective};
 use crate::structure::Structure;
 use num_traits::PrimInt;
 
@@ -105,6 +105,21 @@ impl<R: PrimInt> Rows<R> {
         self.grow_sheets();
         let faces = if objective == Objective::Blocks { 0 } else { self.surface_faces() };
         Some(self.blocks() + faces)
+    }
+
+    /// All three numbers at once, see [`count`](Self::count).
+    pub fn counts(&mut self, ranks: &[u16], planes: [usize; 3]) -> Option<Counts> {
+        if !self.place(ranks, planes) {
+            return None;
+        }
+        self.grow_sheets();
+        let blocks = self.blocks();
+        Some(Counts { surface_patches: self.patches(), blocks, blocks_padded: blocks + self.surface_faces() })
+    }
+
+    /// Whether that is a valid polycube, see [`count`](Self::count).
+    pub fn is_valid(&mut self, ranks: &[u16], planes: [usize; 3]) -> bool {
+        self.place(ranks, planes)
     }
 
     /// Lays the facets out; whether they are a valid polycube.

@@ -1,0 +1,144 @@
+//! Moving along the front between few blocks and little displacement, without searching again.
+
+use super::{Input, Options, Report, Simplified, finish, max_displacement};
+use crate::align::{self, Alignment, Strategy, TradeOff};
+use crate::context::Context;
+use crate::error::{Error, ErrorKind, Result};
+use crate::layout::{Counts, count};
+use crate::structure::{Arrangement, Placement};
+use std::time::Instant;
+
+/// A point of the front on the lattice, before any mesh is moved.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Located {
+    /// Its number on the front, from 0 for the fewest blocks.
+    pub index: usize,
+    /// The lattice coordinate of every level.
+    pub levels: Vec<i64>,
+    /// Its counts.
+    pub counts: Counts,
+    /// The farthest that a corner moves, in units of the input.
+    pub max_displacement: f64,
+}
+
+impl Simplified {
+    /// Another point of the same front, from 1, the fewest blocks, to 0, the least displacement: for a slider. Nothing is
+    /// searched; it takes the time of placing the levels and of the morph. `input` must be what was simplified.
+    ///
+    /// It is what [`simplify`](super::simplify) would give with this simplicity and no limits on displacement and distortion.
+    ///
+    /// # Errors
+    /// [`ErrorKind::Option`] for a simplicity out of range, or if there is no front (only [`Strategy::Best`] finds one);
+    /// [`ErrorKind::Mismatch`] if `input` has other cells; those of [`align::place`]; [`ErrorKind::Cancelled`].
+    pub fn at(&self, input: &Input, simplicity: f64, context: &Context) -> Result<Self> {
+        let start = Instant::now();
+        let located = self.locate(simplicity, context)?;
+        let mut moved = self.moved(input, located, context)?;
+        let total = start.elapsed().as_secs_f64();
+        moved.report.seconds = super::Seconds { morph: total, total, ..super::Seconds::default() };
+        Ok(moved)
+    }
+
+    /// Levels and counts of the point that [`at`](Self::at) would give, without moving the mesh: milliseconds.
+    ///
+    /// # Errors
+    /// Those of [`at`](Self::at).
+    pub fn locate(&self, simplicity: f64, context: &Context) -> Result<Located> {
+        if !(0.0..=1.0).contains(&simplicity) {
+            return Err(Error::new(ErrorKind::Option, format!("{simplicity} is no simplicity"))
+                .remedy("give a number from 0, the least displacement, to 1, the fewest blocks"));
+        }
+        if self.report.front.is_empty() {
+            return Err(Error::new(ErrorKind::Option, "there is no front to move along")
+                .remedy("simplify with the strategy `best` first"));
+        }
+        self.locate_index(TradeOff::index(simplicity, self.report.front.len()), context)
+    }
+
+    /// All points of the front as results of their own, from the fewest blocks on, each with its mesh and distortion.
+    /// `input` must be what was simplified. Takes one morph for each.
+    ///
+    /// # Errors
+    /// Those of [`at`](Self::at), except that an empty front gives no points.
+    pub fn pareto(&self, input: &Input, context: &Context) -> Result<Vec<Self>> {
+        let count = self.report.front.len();
+        let point = |index: usize| {
+            let own = context.stage("front", index as f64 / count as f64, (index + 1) as f64 / count as f64);
+            self.moved(input, self.locate_index(index, &own)?, &own)
+        };
+        (0..count).map(point).collect()
+    }
+
+    /// The first point from this one on whose map is distorted no more than the options allow; if there is none, the least
+    /// distorted one, with a note.
+    pub(super) fn within_distortion(self, input: &Input, context: &Context) -> Result<Self> {
+        let Some(limit) = self.options.max_distortion else { return Ok(self) };
+        if limit.is_nan() || limit < 1.0 {
+            return Err(Error::new(ErrorKind::Option, format!("{limit} is no bound for a distortion"))
+                .remedy("give a number of 1 or more; 1 is a similarity"));
+        }
+        let first = self.report.chosen.map_or(usize::MAX, |c| c + 1);
+        let count = self.report.front.len();
+        let mut best = self.clone();
+        for index in first..count {
+            if best.angle() <= limit {
+                break;
+            }
+            context.tick(index as f64 / count as f64)?;
+            let next = self.moved(input, self.locate_index(index, context)?, context)?;
+            if next.angle() < best.angle() {
+                best = next;
+            }
+        }
+        let least = best.angle();
+        if least > limit && best.report.valid {
+            let note = format!("no result found has a mean angle distortion of {limit} or less; this one has {least}");
+            best.report.notes.push(note);
+        }
+        Ok(best)
+    }
+
+    /// The mean angle distortion of the map to the result.
+    fn angle(&self) -> f64 {
+        self.report.distortion.map_or(f64::INFINITY, |[_, after]| after.angle)
+    }
+
+    fn locate_index(&self, index: usize, context: &Context) -> Result<Located> {
+        let Self { input: polycube, report, .. } = self;
+        let (structure, placement) = (&polycube.structure, &polycube.placement);
+        let settings = self.settings();
+        let levels = align::place(structure, placement, report.before, &report.front[index], &settings, context)?;
+        let at: Placement = levels.iter().map(|&x| x as f64).collect();
+        let counts = count(&Arrangement::new(structure, &at));
+        let max_displacement = max_displacement(polycube, &levels, report.scale);
+        Ok(Located { index, levels, counts, max_displacement })
+    }
+
+    fn settings(&self) -> align::Options {
+        let Options { solver, guides, objective, .. } = self.options.clone();
+        align::Options {
+            scale: self.report.scale,
+            solver,
+            guides,
+            objective: objective.unwrap_or_default(),
+            ..align::Options::default()
+        }
+    }
+
+    fn moved(&self, input: &Input, located: Located, context: &Context) -> Result<Self> {
+        self.check_input(input)?;
+        let Self { input: polycube, report: old, options, .. } = self;
+        let alignment = Alignment {
+            levels: located.levels,
+            before: old.before,
+            after: Some(located.counts),
+            rounds: old.rounds.clone(),
+            broken: Vec::new(),
+            front: old.front.clone(),
+            chosen: Some(located.index),
+            bound: old.bound,
+        };
+        let report = Report::new(polycube, &alignment, Strategy::Best, old.scale);
+        finish(input, polycube.clone(), alignment.levels, report, options, context)
+    }
+}
