@@ -4,7 +4,7 @@
 import bpy
 import polycube
 
-from . import faults, jobs, settings, simplify, source
+from . import faults, jobs, settings, source
 
 
 class POLYCUBE_OT_check(settings.ToleranceOptions, bpy.types.Operator):
@@ -23,11 +23,10 @@ class POLYCUBE_OT_check(settings.ToleranceOptions, bpy.types.Operator):
         try:
             jobs.leave_edit_mode(context)
             read = source.read(context)
-            tolerances = simplify.tolerances(self)
-            violations = polycube.check(read.polycube, shape=read.shape, **tolerances)
+            violations = polycube.check(read.polycube, shape=read.shape, **self.tolerances())
             if violations:
                 return faults.report_all(self, context, violations, read)
-            counts = polycube.structure(read.polycube, **tolerances).counts
+            counts = polycube.structure(read.polycube, **self.tolerances()).counts
         except (faults.Refused, polycube.PolycubeError) as error:
             return faults.report(self, context, error, read)
         self.report({'INFO'}, f"A valid polycube: {counts.surface_patches} patches, {counts.blocks} blocks, "

@@ -21,6 +21,11 @@ def report(operator, context, error, source=None):
     if isinstance(error, polycube.Cancelled):
         operator.report({'WARNING'}, "Cancelled; nothing was changed")
         return {'CANCELLED'}
+    if source is not None and isinstance(error, (polycube.InvalidMesh, polycube.InvalidPolycube)):
+        # The error tells of the first violation only.
+        violations = polycube.check(source.polycube, shape=source.shape, **operator.tolerances())
+        if violations:
+            return report_all(operator, context, violations, source)
     operator.report({'ERROR'}, _sentence(str(error)))
     if source is not None and getattr(error, "elements", None):
         show(context, source, [(error.element, error.elements)])

@@ -11,13 +11,32 @@ from .source import visible
 KEY_NAME = "Simplified"
 
 
+def check_output(source, output):
+    """Refuses, before the work begins, a result that could not be put where it is wanted."""
+    if not _as_key(source, output):
+        return
+    if not source.editable:
+        raise faults.Refused(
+            "the result cannot be a shape key: modifiers make other vertices than those of the mesh",
+            "apply them, or take a new object as the result",
+        )
+    holder = bpy.data.objects[source.holder]
+    if holder.library is not None or holder.data.library is not None:
+        raise faults.Refused(f"{holder.name} is linked from another file", "take a new object as the result")
+
+
+def _as_key(source, output):
+    """Whether the result becomes a shape key; an object otherwise."""
+    return output == 'KEY' or (output == 'AUTO' and source.key is not None and source.editable)
+
+
 def place(context, source, simplified, output, token):
     """Makes a new shape key or object of a result and shows it. What was there is kept, and hidden where it is covered."""
-    as_key = output == 'KEY' or (output == 'AUTO' and source.key is not None)
     if simplified.polycube is None:
         raise faults.Refused("rounding broke the polycube: " + "; ".join(simplified.notes), "use the strategy Best or Paper")
+    as_key = _as_key(source, output)
     holder = bpy.data.objects[source.holder]
-    obj, key = (holder, _new_key(holder, source)) if as_key else (_new_object(context, holder, source), "")
+    obj, key = (holder, _new_key(holder)) if as_key else (_new_object(context, holder, source), "")
     result = context.scene.polycube.result
     result.token, result.object, result.key, result.meshed = token, obj, key, ""
     update(context, source, simplified)
@@ -64,14 +83,7 @@ def _count(result, simplified):
     result.notes = "\n".join(simplified.notes)
 
 
-def _new_key(holder, source):
-    if not source.editable:
-        raise faults.Refused(
-            "the result cannot be a shape key: modifiers make other vertices than those of the mesh",
-            "apply them, or take a new object as the result",
-        )
-    if holder.library is not None or holder.data.library is not None:
-        raise faults.Refused(f"{holder.name} is linked from another file", "take a new object as the result")
+def _new_key(holder):
     if holder.data.shape_keys is None:
         holder.shape_key_add(name="Basis", from_mix=False)
     for key in holder.data.shape_keys.key_blocks[1:]:

@@ -149,6 +149,13 @@ class ToleranceOptions(Options):
         options=FORGET,
     )
 
+    def tolerances(self):
+        """These options as the core takes them."""
+        return {
+            "angle_tolerance": math.degrees(self.angle_tolerance),
+            "level_tolerance": self.level_tolerance / 100.0,
+        }
+
 
 class SimplifyOptions(SearchOptions, ToleranceOptions):
     """How a polycube is simplified, and where the result goes."""

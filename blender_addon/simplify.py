@@ -1,8 +1,6 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """*Simplify*: the polycube with fewer blocks."""
 
-import math
-
 import bpy
 import polycube
 
@@ -17,6 +15,7 @@ class POLYCUBE_OT_simplify(jobs.JobOperator, settings.SimplifyOptions, bpy.types
     bl_label = "Simplify"
 
     def begin(self, context, read):
+        results.check_output(read, self.output)
         step = self.lattice_step if self.lattice == 'STEP' else None
         holder = bpy.data.objects[read.holder]
         locked = source.locked_cells(read, self, holder)
@@ -48,17 +47,9 @@ def search_options(options, locked):
         "max_distortion": options.max_distortion or None,
         "locked_faces": locked,
         "steps": options.steps,
-        **tolerances(options),
+        **options.tolerances(),
     }
     return {name: value for name, value in given.items() if value is not None}
-
-
-def tolerances(options):
-    """How far the input may be from a polycube, in the units of the core."""
-    return {
-        "angle_tolerance": math.degrees(options.angle_tolerance),
-        "level_tolerance": options.level_tolerance / 100.0,
-    }
 
 
 CLASSES = (POLYCUBE_OT_simplify,)

@@ -111,7 +111,7 @@ def _read_key(context, settings):
     if not cube.same_faces(body):
         raise faults.Refused(
             "the modifiers make other faces of the polycube than of the shape",
-            "apply them, or use those that treat both alike, such as Mirror or Triangulate",
+            "apply them, or use those that treat both alike, such as Mirror, or Triangulate by a fixed method",
         )
     return _source(holder, key.name, cube, holder, body, editable)
 
