@@ -7,15 +7,13 @@ import polycube
 from . import faults, jobs, settings, source
 
 
-class POLYCUBE_OT_check(settings.ToleranceOptions, bpy.types.Operator):
+class POLYCUBE_OT_check(jobs.Idle, settings.ToleranceOptions, bpy.types.Operator):
     """Check that the polycube is closed, that every face looks along an axis, and that shape and polycube fit.
     Selects what is wrong in edit mode"""
 
     bl_idname = "polycube.check"
     bl_label = "Check"
     bl_options = {'REGISTER', 'UNDO'}
-
-    poll = jobs.JobOperator.poll
 
     def execute(self, context):
         self.settle(context.scene.polycube)

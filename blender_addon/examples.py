@@ -20,7 +20,7 @@ NAMES = {
 }
 
 
-class POLYCUBE_OT_add_example(bpy.types.Operator):
+class POLYCUBE_OT_add_example(jobs.Idle, bpy.types.Operator):
     """Add a shape with its polycube as a shape key, and choose it as the input"""
 
     bl_idname = "polycube.add_example"
@@ -39,8 +39,6 @@ class POLYCUBE_OT_add_example(bpy.types.Operator):
         min=0,
         default=1,
     )
-
-    poll = jobs.JobOperator.poll
 
     def execute(self, context):
         try:

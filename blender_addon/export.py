@@ -36,7 +36,7 @@ class POLYCUBE_OT_write_hexes(jobs.JobOperator, settings.SearchOptions, settings
     def finish(self, context, read, meshes):
         shape = bpy.data.objects[read.shape_name or read.holder]
         placed = in_scene(shape, meshes.hexes.points / read.shape_size)
-        fields = {name: getattr(meshes.hexes, name) for name in ("scaled_jacobian", "block_id", "label")}
+        fields = {name: getattr(meshes.hexes, name) for name in ("block_id", "label", "scaled_jacobian")}
         # The file appears whole or not at all.
         polycube.Mesh(placed, meshes.hexes.cells, kind="hexahedra").write(bpy.path.abspath(self.filepath), fields=fields)
         report = meshes.report
@@ -58,7 +58,7 @@ def in_scene(obj, points):
     return points @ matrix[:3, :3].T + matrix[:3, 3]
 
 
-class POLYCUBE_OT_export_hexes(bpy.types.Operator):
+class POLYCUBE_OT_export_hexes(jobs.Idle, bpy.types.Operator):
     """Fill the shape with hexahedra that follow the block structure and write them to a file for simulation,
     in the coordinates of the scene"""
 
@@ -69,8 +69,6 @@ class POLYCUBE_OT_export_hexes(bpy.types.Operator):
     filter_glob: StringProperty(default="*.vtu;*.vtk;*.mesh", options={'HIDDEN'})
     format: EnumProperty(name="Format", description="The kind of file", items=FORMATS, default='.vtu')
     check_existing: bpy.props.BoolProperty(default=True, options={'HIDDEN', 'SKIP_SAVE'})
-
-    poll = jobs.JobOperator.poll
 
     def invoke(self, context, _event):
         if not self.filepath:

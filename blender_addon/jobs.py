@@ -33,7 +33,18 @@ def status():
     return _Running.job.progress if running() else ("", 0.0)
 
 
-class JobOperator:
+class Idle:
+    """Mix-in for operators that must not run beside a job."""
+
+    @classmethod
+    def poll(cls, context):
+        if running():
+            cls.poll_message_set("Another Polycube job is running; press Esc to cancel it")
+            return False
+        return context.scene is not None
+
+
+class JobOperator(Idle):
     """Mix-in for operators that start a job of the core and make something of its result.
 
     A class says what to do in `begin`, which reads the scene and gives a `polycube.Job`, and in `finish`, which changes
@@ -42,13 +53,6 @@ class JobOperator:
     """
 
     bl_options = {'REGISTER', 'UNDO'}
-
-    @classmethod
-    def poll(cls, context):
-        if running():
-            cls.poll_message_set("Another Polycube job is running; press Esc to cancel it")
-            return False
-        return context.scene is not None
 
     def invoke(self, context, _event):
         if bpy.app.background or context.window is None:

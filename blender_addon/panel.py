@@ -1,6 +1,8 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """The panel *Polycube* in the sidebar of the 3D view, and the presets of its options."""
 
+import textwrap
+
 import bpy
 from bl_operators.presets import AddPresetBase
 from bl_ui.utils import PresetPanel
@@ -8,6 +10,8 @@ from bl_ui.utils import PresetPanel
 from . import jobs, live, settings
 
 PRESETS = "polycube"
+# Characters in a line of the sidebar as Blender opens it.
+WIDTH = 38
 
 
 class POLYCUBE_PT_presets(PresetPanel, bpy.types.Panel):
@@ -49,12 +53,13 @@ class VIEW3D_PT_polycube(_SidePanel, bpy.types.Panel):
         layout.use_property_split = True
         layout.use_property_decorate = False
         _draw_inputs(layout, choice)
-        row = layout.row(align=True)
-        row.operator("polycube.check", icon='CHECKMARK')
-        row.operator_menu_enum("polycube.add_example", "example", icon='ADD')
         if jobs.running():
             stage, part = jobs.status()
             layout.progress(factor=part, text=f"{stage.capitalize()}  (Esc to cancel)")
+            return
+        row = layout.row(align=True)
+        row.operator("polycube.check", icon='CHECKMARK')
+        row.operator_menu_enum("polycube.add_example", "example", icon='ADD')
 
 
 class VIEW3D_PT_polycube_simplify(_SidePanel, bpy.types.Panel):
@@ -90,8 +95,7 @@ class VIEW3D_PT_polycube_mesh(_SidePanel, bpy.types.Panel):
         column.operator("polycube.show_layout", icon='MOD_WIREFRAME')
         column.operator("polycube.export_hexes", icon='EXPORT')
         layout.prop(choice, "colour")
-        for line in choice.result.meshed.split("\n") if choice.result.meshed else ():
-            layout.label(text=line)
+        _draw_text(layout, choice.result.meshed, 'NONE')
 
 
 class VIEW3D_PT_polycube_tolerance(_SidePanel, bpy.types.Panel):
@@ -175,8 +179,17 @@ def _draw_counts(layout, choice):
     layout.label(text=f"Farthest move of a corner: {length}")
     if choice.strategy == 'best' and live.current(choice) is None:
         layout.label(text="Simplify again to use the slider", icon='INFO')
-    for note in result.notes.split("\n") if result.notes else ():
-        layout.label(text=note, icon='ERROR')
+    _draw_text(layout, result.notes, 'ERROR')
+
+
+def _draw_text(layout, text, icon):
+    """Some lines of text, broken where the sidebar usually ends."""
+    column = layout.column(align=True)
+    for paragraph in text.splitlines():
+        first, *others = textwrap.wrap(paragraph, WIDTH) or [""]
+        column.label(text=first, icon=icon)
+        for line in others:
+            column.label(text=line, icon='BLANK1' if icon != 'NONE' else 'NONE')
 
 
 CLASSES = (

@@ -6,10 +6,12 @@ all went well, FOLDER/failed with the reason otherwise.
 """
 
 import os
+import subprocess
 import sys
 import traceback
 
 import bpy
+from mathutils import Euler
 
 FOLDER = sys.argv[sys.argv.index("--") + 1]
 MODULE = "bl_ext.user_default.polycube"
@@ -52,9 +54,8 @@ def click(x, y):
 
 
 def picture(name):
-    """The whole window as a file."""
-    with bpy.context.temp_override(window=window()):
-        bpy.ops.screen.screenshot(filepath=os.path.join(FOLDER, f"{name}.png"))
+    """The whole screen as a file."""
+    subprocess.run(["import", "-window", "root", os.path.join(FOLDER, f"{name}.png")], check=True)
 
 
 def press(name, **options):
@@ -92,14 +93,21 @@ def open_panel():
     assert side.active_panel_category == "Polycube", "there is no tab Polycube"
 
 
-def look(scale=1.15):
-    """Frames what is selected."""
+def look(scale=1.1):
+    """Frames what is selected, from the front, the right and above."""
     with override():
-        bpy.ops.view3d.view_axis(type='FRONT')
-        bpy.ops.view3d.view_orbit(angle=0.6, type='ORBITLEFT')
-        bpy.ops.view3d.view_orbit(angle=0.45, type='ORBITUP')
         bpy.ops.view3d.view_selected()
-    view().spaces.active.region_3d.view_distance *= scale
+    yield LATER
+    space = view().spaces.active.region_3d
+    space.view_perspective, space.view_rotation = 'ORTHO', Euler((1.1, 0.0, 0.7)).to_quaternion()
+    space.view_distance *= scale
+    yield LATER
+
+
+def facing(obj):
+    """A face that looks to where the pictures are taken from."""
+    direction = Euler((1.1, 0.0, 0.7)).to_matrix().col[2]
+    return max(obj.data.polygons, key=lambda polygon: polygon.normal.dot(direction))
 
 
 def work():
@@ -115,15 +123,14 @@ def work():
     bpy.ops.ed.undo_push(message="example")
     obj = bpy.context.object
     obj.data.shape_keys.key_blocks["Polycube"].value = 1.0
-    yield LATER
-    look()
+    yield from look()
     assert press("check") == {'FINISHED'}
     yield LATER
     picture("before")
 
     # Esc cancels and changes nothing.
     assert press("simplify", steps=100_000) == {'RUNNING_MODAL'}
-    yield LATER
+    yield 2 * LATER
     assert not bpy.ops.polycube.simplify.poll(), "a second job can be started"
     picture("running")
     key('ESC')
@@ -155,8 +162,7 @@ def work():
 
     assert press("show_layout") == {'RUNNING_MODAL'}
     yield from finished()
-    look()
-    yield LATER
+    yield from look()
     picture("layout")
     bpy.context.object.hide_set(True)
     assert press("quad_remesh") == {'RUNNING_MODAL'}
@@ -174,7 +180,7 @@ def work():
         bpy.ops.object.mode_set(mode='EDIT')
         bpy.ops.mesh.select_all(action='DESELECT')
         bpy.ops.object.mode_set(mode='OBJECT')
-        broken.data.polygons[100].select = True
+        facing(broken).select = True
         bpy.ops.object.mode_set(mode='EDIT')
         bpy.ops.mesh.delete(type='ONLY_FACE')
         bpy.ops.object.mode_set(mode='OBJECT')
@@ -185,10 +191,7 @@ def work():
         assert "open" in str(error), error
     yield LATER
     assert window().scene and bpy.context.object.mode == 'EDIT'
-    with override():
-        bpy.ops.view3d.view_selected()
-    view().spaces.active.region_3d.view_distance *= 4.0
-    yield LATER
+    yield from look(6.0)
     picture("fault")
 
 
