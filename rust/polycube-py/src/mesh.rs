@@ -253,7 +253,7 @@ pub fn read_labels<'py>(py: Python<'py>, path: PathBuf, polycube: &PyMesh) -> Py
 ///
 /// >>> import polycube
 /// >>> polycube.example("ring", kind="quads")
-/// (Mesh(10064 points, 10064 quads), Mesh(10064 points, 10064 quads))
+/// (Mesh(8992 points, 8992 quads), Mesh(8992 points, 8992 quads))
 #[pyfunction]
 #[pyo3(signature = (name="cube-spikes", *, seed=1, kind="tetrahedra"))]
 pub fn example(py: Python<'_>, name: &str, seed: u64, kind: &str) -> PyResult<(PyMesh, PyMesh)> {

@@ -379,9 +379,9 @@ impl PyRemeshed {
 ///
 /// >>> import polycube
 /// >>> shape, cube = polycube.example("stepped-l")
-/// >>> meshes = polycube.remesh(shape, cube, hexes=3000)
-/// >>> meshes.good, meshes.hexes.scaled_jacobian.min() > 0.2
-/// (True, np.True_)
+/// >>> meshes = polycube.remesh(shape, cube, hexes=1500)
+/// >>> meshes.report["inverted"], meshes.report["min_sj"] > 0
+/// (0, True)
 #[pyfunction]
 #[pyo3(
     signature = (shape, polycube, *, progress=None, cancel=None, **options),

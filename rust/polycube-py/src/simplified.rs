@@ -11,7 +11,7 @@ use polycube::simplify::{Input, Options, Simplified, read_structure, simplify as
 use polycube::{Context, Error, ErrorKind};
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
-use std::sync::Arc;
+use std::sync::{Arc, OnceLock};
 
 /// What a simplification starts from.
 #[derive(Clone)]
@@ -95,6 +95,7 @@ struct Parts {
     result: Simplified,
     polycube: Option<PyMesh>,
     labels: Vec<i8>,
+    structure: OnceLock<PyStructure>,
 }
 
 impl PySimplified {
@@ -102,7 +103,7 @@ impl PySimplified {
     pub fn new(mut result: Simplified, source: Source) -> Self {
         let labels = result.input.labels().map(|l| l.index() as i8).collect();
         let polycube = result.polycube.take().map(PyMesh::from);
-        Self(Arc::new(Parts { source, result, polycube, labels }))
+        Self(Arc::new(Parts { source, result, polycube, labels, structure: OnceLock::new() }))
     }
 }
 
@@ -142,7 +143,8 @@ impl PySimplified {
     /// The structure of the input, which the result shares.
     #[getter]
     fn structure(&self) -> PyStructure {
-        PyStructure::new(self.0.result.input.clone(), &self.0.source.polycube)
+        let Parts { result, source, structure, .. } = &*self.0;
+        structure.get_or_init(|| PyStructure::new(result.input.clone(), &source.polycube)).clone()
     }
 
     /// Counts of the input.

@@ -45,6 +45,7 @@ impl PyCounts {
 
 /// Facets, edges, corners and levels of a polycube. Numbers count from 0; arrays are read-only.
 #[pyclass(frozen, module = "polycube", name = "Structure")]
+#[derive(Clone)]
 pub struct PyStructure(Arc<Parts>);
 
 struct Parts {

@@ -7,7 +7,6 @@ import runpy
 import sys
 from pathlib import Path
 
-import numpy as np
 import pytest
 
 import polycube
@@ -31,7 +30,7 @@ EXAMPLES = {"polycube": polycube} | {k: v for k, v in documented().items() if ">
 @pytest.mark.parametrize("name", EXAMPLES)
 def test_examples_in_docstrings(name, tmp_path, monkeypatch):
     monkeypatch.chdir(tmp_path)
-    test = doctest.DocTestParser().get_doctest(inspect.getdoc(EXAMPLES[name]), {"np": np}, name, None, None)
+    test = doctest.DocTestParser().get_doctest(inspect.getdoc(EXAMPLES[name]), {}, name, None, None)
     assert test.examples
     report = []
     doctest.DocTestRunner(verbose=False).run(test, out=report.append)

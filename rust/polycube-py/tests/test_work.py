@@ -110,8 +110,8 @@ def test_a_job_gives_what_the_call_gives(surfaces):
     assert job.done and job.progress[1] == 1.0 and "done" in repr(job)
     assert np.array_equal(job.result().polycube.points, polycube.simplify(mesh, shape).polycube.points)
     assert np.shares_memory(job.result().levels, job.result().levels)
-    remesh = polycube.Job.remesh(shape, mesh, surface_only=True)
-    own = polycube.remesh(shape, mesh, surface_only=True)
+    remesh = polycube.Job.remesh(shape, mesh, surface_only=True, scale=0.3)
+    own = polycube.remesh(shape, mesh, surface_only=True, scale=0.3)
     assert np.array_equal(remesh.result().quads.points, own.quads.points)
 
 
@@ -145,7 +145,8 @@ def test_a_job_that_nobody_holds_stops(slow):
         pytest.skip("there is no /proc here")
     before = workers()
     job = polycube.Job.simplify(mesh, **options)
-    assert workers() == before + 1
+    while workers() == before:  # the thread takes its name when it starts to run
+        time.sleep(0.01)
     del job
     gc.collect()
     while workers() > before:  # ends, or the test hangs

@@ -8,7 +8,7 @@ the same vertices and cells. Arrays are numpy arrays, indices count from 0, labe
 >>> simple = polycube.simplify(cube, shape)
 >>> simple.counts_before.blocks_padded, simple.counts_after.blocks_padded
 (937, 111)
->>> meshes = polycube.remesh(shape, cube, hexes=5000)
+>>> meshes = polycube.remesh(shape, cube, hexes=2000)
 >>> meshes.hexes.mesh.write("cube-spikes.vtu")
 """
 

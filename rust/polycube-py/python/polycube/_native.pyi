@@ -8,6 +8,32 @@ from typing import Any, Final, Generic, Literal, Protocol, TypedDict, TypeVar, f
 import numpy as np
 import numpy.typing as npt
 
+__all__ = [
+    "EXAMPLES",
+    "Counts",
+    "Hexes",
+    "Job",
+    "Layout",
+    "Mesh",
+    "Quads",
+    "Remeshed",
+    "Simplified",
+    "SingularEdge",
+    "Structure",
+    "TradeOff",
+    "Violation",
+    "__version__",
+    "_panic",
+    "check",
+    "example",
+    "read",
+    "read_labels",
+    "read_pair",
+    "remesh",
+    "simplify",
+    "structure",
+]
+
 __version__: Final[str]
 EXAMPLES: Final[tuple[str, ...]]
 
@@ -228,7 +254,7 @@ class Remeshed:
 
 @final
 class Job(Generic[_T_co]):
-    def __class_getitem__(cls, item: Any, /) -> GenericAlias: ...
+    def __class_getitem__(cls, item: Any) -> GenericAlias: ...
     @staticmethod
     def simplify(
         polycube: Mesh,
@@ -287,6 +313,7 @@ class Job(Generic[_T_co]):
     def wait(self, timeout: float | None = None) -> bool: ...
     def result(self) -> _T_co: ...
 
+def _panic() -> None: ...
 def read(path: _Path) -> Mesh: ...
 def read_pair(shape: _Path, polycube: _Path) -> tuple[Mesh, Mesh]: ...
 def read_labels(path: _Path, polycube: Mesh) -> npt.NDArray[np.int8]: ...
