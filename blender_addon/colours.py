@@ -66,10 +66,9 @@ def _quality(values):
 _RULES = {'block_id': _blocks, 'label': _labels, 'scaled_jacobian': _quality}
 
 
-def show(context, *objects):
-    """Paints results, and has the solid views show colour attributes."""
-    for obj in objects:
-        paint(obj.data, context.scene.polycube.colour)
+def show(context, obj):
+    """Paints a result, and has the solid views show colour attributes."""
+    paint(obj.data, context.scene.polycube.colour)
     areas = (area for window in context.window_manager.windows for area in window.screen.areas)
     for space in (area.spaces.active for area in areas if area.type == 'VIEW_3D'):
         space.shading.color_type = 'VERTEX'
@@ -77,6 +76,6 @@ def show(context, *objects):
 
 def repaint(settings, _context):
     """Called when the user chooses another colouring."""
-    for obj in bpy.data.objects:
-        if obj.type == 'MESH' and obj.get("polycube_result"):
-            paint(obj.data, settings.colour)
+    for mesh in bpy.data.meshes:
+        if LAYER in mesh.color_attributes:
+            paint(mesh, settings.colour)

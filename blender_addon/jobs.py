@@ -106,6 +106,7 @@ class JobOperator(Idle):
         self._clean_up(context)
         try:
             result = self._job.result()
+            leave_edit_mode(context)
             if not self._source.unchanged(context):
                 raise faults.Refused("shape or polycube were changed meanwhile", "start again")
             self.finish(context, self._source, result)

@@ -32,7 +32,7 @@ class POLYCUBE_OT_show_layout(jobs.JobOperator, settings.SearchOptions, settings
             obj, shape = quads.quad_object(context, read, meshes, "Layout")
             objects = [obj, *curves.borders(context, shape, obj, meshes, read.shape_size)]
         objects += curves.singular(context, shape, objects[0], meshes, read.shape_size)
-        quads.finish(self, context, shape, objects, meshes)
+        quads.finish(self, context, read, objects, meshes)
 
     def _cage(self, context, read, meshes):
         shape = bpy.data.objects[read.shape_name or read.holder]

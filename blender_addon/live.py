@@ -51,6 +51,9 @@ def slide(settings, context):
         settings.result.notes = str(error)
         return
     results.update(context, _Last.source, _Last.shown)
+    shown = settings.result.object
+    if shown is not None and shown.name in context.view_layer.objects:
+        shown.hide_set(False)
 
 
 def holder(settings):

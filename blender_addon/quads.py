@@ -5,7 +5,7 @@ import bpy
 import numpy as np
 import polycube
 
-from . import colours, curves, faults, jobs, live, results, settings, simplify, source, transfer
+from . import colours, curves, jobs, live, results, settings, simplify, source, transfer
 
 
 class POLYCUBE_OT_quad_remesh(jobs.JobOperator, settings.SearchOptions, settings.ToleranceOptions, settings.MeshOptions,
@@ -24,7 +24,7 @@ class POLYCUBE_OT_quad_remesh(jobs.JobOperator, settings.SearchOptions, settings
         with source.visible(context, shape, 0 if read.key else None):
             transfer.carry_over(context, shape, obj)
         lines = curves.singular(context, shape, obj, meshes, read.shape_size)
-        finish(self, context, shape, [obj, *lines], meshes)
+        finish(self, context, read, [obj, *lines], meshes)
 
     def draw(self, _context):
         from . import panel
@@ -84,15 +84,14 @@ def set_quads(mesh, points, cells):
     mesh.update(calc_edges=True)
 
 
-def finish(operator, context, shape, objects, meshes):
-    """Shows new objects in place of the shape, and says how they turned out."""
+def finish(operator, context, read, objects, meshes):
+    """Shows new objects in place of shape and polycube, and says how they turned out."""
     report = meshes.report
     for obj in objects[1:]:
         obj.parent = objects[0]
         obj.matrix_parent_inverse = objects[0].matrix_world.inverted()
-    faults.enter(context, objects[0])
-    shape.hide_set(True)
-    colours.show(context, objects[0])
+    inputs = [bpy.data.objects[name] for name in (read.holder, read.shape_name) if name]
+    results.show(context, objects, inputs)
     distance = f"at most {report['hausdorff_percent']:.2f} % of the diagonal off the shape"
     summary = f"{report['quads']} quadrilaterals in {len(meshes.layout.patches.cells)} patches, {distance}"
     context.scene.polycube.result.meshed = summary

@@ -9,6 +9,8 @@ from . import colours, faults
 from .source import visible
 
 KEY_NAME = "Simplified"
+# The custom property that tells results from other objects.
+MARK = "polycube_result"
 
 
 def check_output(source, output):
@@ -40,10 +42,16 @@ def place(context, source, simplified, output, token):
     result = context.scene.polycube.result
     result.token, result.object, result.key, result.meshed = token, obj, key, ""
     update(context, source, simplified)
-    faults.enter(context, obj)
-    if not as_key:
-        holder.hide_set(True)
-    colours.show(context, obj)
+    show(context, [obj], [holder])
+
+
+def show(context, objects, covered):
+    """Shows new results and selects the first. Hides earlier ones, and what the new ones cover."""
+    for other in context.view_layer.objects:
+        if other.get(MARK) or other in covered:
+            other.hide_set(other not in objects)
+    faults.enter(context, objects[0])
+    colours.show(context, objects[0])
 
 
 def update(context, source, simplified):
@@ -65,7 +73,6 @@ def update(context, source, simplified):
     first = _first_cell(source)
     colours.write(mesh, block_id=structure.block_id[first], label=structure.label[first])
     colours.paint(mesh, settings.colour)
-    mesh.update()
     _count(settings.result, simplified)
 
 
@@ -109,5 +116,5 @@ def new_object(context, like, name, data):
     for collection in like.users_collection or [context.scene.collection]:
         collection.objects.link(obj)
     obj.matrix_world = like.matrix_world
-    obj["polycube_result"] = True
+    obj[MARK] = True
     return obj
