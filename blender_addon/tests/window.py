@@ -104,6 +104,26 @@ def look(scale=1.1):
     yield LATER
 
 
+def redo_panel():
+    """Chooses another strategy in the panel at the bottom left, and the first one again."""
+    hud = region('HUD')
+    click(hud.x + hud.width // 2, hud.y + hud.height - 12)
+    yield LATER
+    hud = region('HUD')
+    picture("redo")
+    patches = []
+    for kind in ('WHEELDOWNMOUSE', 'WHEELUPMOUSE'):
+        x, y = hud.x + hud.width * 3 // 4, hud.y + hud.height - 42
+        window().event_simulate(type='MOUSEMOVE', value='NOTHING', x=x, y=y)
+        yield SOON
+        window().event_simulate(type=kind, value='PRESS', x=x, y=y, ctrl=True)
+        yield 2 * LATER
+        last = bpy.context.window_manager.operators[-1]
+        patches.append((last.strategy, bpy.context.scene.polycube.result.patches[1]))
+        assert keys() == ["Basis", "Polycube", "Simplified"], keys()
+    assert [strategy for strategy, _ in patches] == ['paper', 'best'] and patches[0][1] >= patches[1][1], patches
+
+
 def facing(obj):
     """A face that looks to where the pictures are taken from."""
     direction = Euler((1.1, 0.0, 0.7)).to_matrix().col[2]
@@ -141,6 +161,7 @@ def work():
     yield from finished()
     assert keys() == ["Basis", "Polycube", "Simplified"], keys()
     picture("after")
+    yield from redo_panel()
 
     # One step to undo, and one to redo.
     key('Z', ctrl=True)
@@ -193,6 +214,15 @@ def work():
     assert window().scene and bpy.context.object.mode == 'EDIT'
     yield from look(6.0)
     picture("fault")
+    yield from leave()
+
+
+def leave():
+    """Quits while a job is at work: Blender must not hang."""
+    bpy.ops.object.mode_set(mode='OBJECT')
+    press("add_example")
+    press("simplify", steps=100_000)
+    yield LATER
 
 
 def finish(name, text=""):
