@@ -1,6 +1,6 @@
 //! The command line: subcommands and what they have in common.
 
-use crate::{completions, demo, inspect, remesh, simplify, validate, view};
+use crate::{compare, completions, demo, inspect, remesh, simplify, validate, view};
 use clap::{Args, Parser, Subcommand, ValueHint};
 use polycube::structure::Tolerance;
 use std::path::PathBuf;
@@ -8,7 +8,8 @@ use std::path::PathBuf;
 const EXIT_CODES: &str = "\
 Exit codes:
   0    done; `validate`: the polycube is valid
-  1    failure: a file cannot be read, understood or written, or there is no solution
+  1    failure: a file cannot be read, understood or written, or there is no solution;
+       `compare`: some inputs could not be compared, the others are in the table
   2    wrong usage: an unknown option, or a value out of its range
   3    not a valid polycube: violations found, shape and polycube do not match,
        or `--strategy naive` broke it
@@ -36,6 +37,8 @@ pub enum Command {
     Simplify(simplify::Args),
     /// Simplify a polycube and mesh its shape with the blocks found: coarse layout, quadrilaterals, hexahedra
     Remesh(Box<remesh::Args>),
+    /// Mesh shapes without and with simplification and compare: hexahedra, quality, patches, blocks, times
+    Compare(Box<compare::Args>),
     /// Show the structure found in a polycube: charts, corners, edges, levels, block counts
     Inspect(inspect::Args),
     /// List everything that keeps a mesh from being a valid polycube, where it is and how to mend it

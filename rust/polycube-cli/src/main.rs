@@ -1,6 +1,8 @@
 //! The `polycube` command.
 
 mod args;
+mod colour;
+mod compare;
 mod completions;
 mod demo;
 mod failure;
@@ -31,6 +33,7 @@ fn main() -> ExitCode {
     let done = match cli.command {
         Command::Simplify(args) => simplify::run(&args),
         Command::Remesh(args) => remesh::run(&args),
+        Command::Compare(args) => compare::run(&args),
         Command::Inspect(args) => inspect::run(&args),
         Command::Validate(args) => validate::run(&args),
         Command::Demo(args) => demo::run(&args),

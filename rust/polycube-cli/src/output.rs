@@ -94,6 +94,21 @@ impl Drop for Output {
     }
 }
 
+/// Writes one file whole or not at all, unless the context was cancelled, and makes its folder.
+///
+/// # Errors
+/// [`ErrorKind::Option`] for a path without a file name; those of [`Output`].
+pub fn write_file(path: &Path, bytes: &[u8], context: &Context) -> Result<()> {
+    let (Some(name), Some(folder)) = (path.file_name().and_then(|n| n.to_str()), path.parent()) else {
+        let message = format!("{} is not the name of a file", path.display());
+        return Err(Error::new(ErrorKind::Option, message).remedy("name a file to write"));
+    };
+    let folder = if folder.as_os_str().is_empty() { Path::new(".") } else { folder };
+    let mut output = Output::new(folder)?;
+    output.add(name, bytes)?;
+    output.publish(&[], context)
+}
+
 fn failed(action: &str, path: &Path, error: &io::Error) -> Error {
     let remedy = match error.kind() {
         io::ErrorKind::PermissionDenied | io::ErrorKind::ReadOnlyFilesystem => "check the permissions of the folder",

@@ -1,6 +1,7 @@
 //! `polycube remesh`.
 
 use crate::args::{ToleranceArgs, percent, positive};
+use crate::colour;
 use crate::failure::{Failure, INFERIOR, Result};
 use crate::mesh_files::MeshFiles;
 use crate::output::Output;
@@ -28,7 +29,8 @@ In the output folder:
   polycube.labels the label of each of its boundary faces, one a line, for --labels
   report.json     that of `simplify`, and hexes, inverted, min_sj, avg_sj, hausdorff, quads, histogram, times
 They appear together when all is done, or not at all. With --surface-only there are no hexahedra and no
-layout.vtk. --format EXT writes hexahedra (or, if it holds surfaces only, quadrilaterals) in that format, too.
+layout.vtk. --format EXT writes hexahedra (or, if it holds surfaces only, quadrilaterals) in that format, too;
+quads.ply has a colour for each patch.
 Exit code 4: the meshes are written, but hexahedra are inverted (scaled_jacobian of 0 or less in hexes.vtu) or the
 surface is farther from the shape than --max-hausdorff. `polycube --help` lists the exit codes.";
 
@@ -108,7 +110,8 @@ pub struct SizeArgs {
 }
 
 impl SizeArgs {
-    fn get(&self) -> Option<Size> {
+    /// The size asked for.
+    pub fn get(&self) -> Option<Size> {
         let length = self.edge_length.map(Size::EdgeLength);
         length.or(self.scale.map(Size::Scale)).or(self.hexes.map(|n| Size::Hexes(n as usize)))
     }
@@ -170,7 +173,8 @@ pub fn work(args: &Args, context: &Context) -> Result<Remeshed> {
     let about = Failure::in_file(&args.polycube);
     let mut result = remesh(&meshes.input(), &args.options(), &middle).map_err(about)?;
     result.report.simplify.seconds.read = read;
-    write(args, &result, &formats, &context.stage("write", 0.95, 1.0))?;
+    let done = start.elapsed().as_secs_f64();
+    write(args, &mut result, &formats, &context.stage("write", 0.95, 1.0), || start.elapsed().as_secs_f64() - done)?;
     Ok(result)
 }
 
@@ -216,7 +220,7 @@ fn files<'a>(result: &'a Remeshed, formats: &Formats) -> Vec<File<'a>> {
     }
     let extra = formats.extra.filter(|f| !matches!((f, &result.hexes), (Format::Obj, _)));
     let Some(hexes) = &result.hexes else {
-        files.extend(extra.map(|f| file("quads", f, &result.quads.mesh, result.quads.fields())));
+        files.extend(extra.map(|f| file("quads", f, &result.quads.mesh, quad_fields(result, f))));
         return files;
     };
     let mut fields = hexes.fields();
@@ -227,12 +231,30 @@ fn files<'a>(result: &'a Remeshed, formats: &Formats) -> Vec<File<'a>> {
     match extra {
         None | Some(Format::Medit | Format::Vtu) => {}
         Some(f) if f.holds(hexes.mesh.cells.kind()) => files.push(file("hexes", f, &hexes.mesh, fields)),
-        Some(f) => files.push(file("quads", f, &result.quads.mesh, result.quads.fields())),
+        Some(f) => files.push(file("quads", f, &result.quads.mesh, quad_fields(result, f))),
     }
     files
 }
 
-fn write(args: &Args, result: &Remeshed, formats: &Formats, context: &Context) -> Result<()> {
+/// The fields of the quadrilaterals, and in PLY a colour for each patch.
+fn quad_fields(result: &Remeshed, format: Format) -> Vec<CellField> {
+    let mut fields = result.quads.fields();
+    if format == Format::Ply {
+        let colours: Vec<[u8; 3]> = result.quads.patch_id.iter().map(|&id| colour::bytes(colour::pastel(id))).collect();
+        let channel = |c: usize| colours.iter().map(|colour| i32::from(colour[c])).collect();
+        let names = ["red", "green", "blue"].into_iter().enumerate();
+        fields.extend(names.map(|(c, name)| CellField::integer(name, channel(c))));
+    }
+    fields
+}
+
+fn write(
+    args: &Args,
+    result: &mut Remeshed,
+    formats: &Formats,
+    context: &Context,
+    elapsed: impl Fn() -> f64,
+) -> Result<()> {
     let mut output = Output::new(&args.output)?;
     let files = files(result, formats);
     for (i, file) in files.iter().enumerate() {
@@ -244,6 +266,10 @@ fn write(args: &Args, result: &Remeshed, formats: &Formats, context: &Context) -
     output.add(LABELS, labels.as_bytes())?;
     let polycube = format!("polycube.{}", formats.polycube);
     let options = args.options();
+    drop(files);
+    let seconds = &mut result.report.simplify.seconds;
+    seconds.write = elapsed();
+    seconds.total += seconds.read + seconds.write;
     let run = RemeshRun { input: &args.files(), options: (&options).into(), output: &polycube, report: &result.report };
     output.add("report.json", terminal::to_json(&run)?.as_bytes())?;
     let stale = match result.hexes {

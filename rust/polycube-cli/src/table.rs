@@ -1,15 +1,33 @@
 //! Tables for people.
 
-use comfy_table::presets::UTF8_NO_BORDERS;
+use comfy_table::presets::{ASCII_MARKDOWN, UTF8_NO_BORDERS};
 use comfy_table::{CellAlignment, LineStyle, Table};
 use polycube::layout::Counts;
 use polycube::remesh::RemeshReport;
 use polycube::simplify::Report;
 
-/// A table under `header`; every column but the first is aligned to the right.
+/// Where a table is read.
+#[derive(Clone, Copy, Debug)]
+pub enum Style {
+    /// On a terminal.
+    Terminal,
+    /// In a Markdown document.
+    Markdown,
+}
+
+/// A table for the terminal under `header`; every column but the first is aligned to the right.
 pub fn table<const N: usize>(header: [&str; N], rows: impl IntoIterator<Item = [String; N]>) -> String {
+    styled(Style::Terminal, header, rows)
+}
+
+/// A table as [`table()`] makes it, in any style.
+pub fn styled<const N: usize>(style: Style, header: [&str; N], rows: impl IntoIterator<Item = [String; N]>) -> String {
     let mut table = Table::new();
-    table.load_style(UTF8_NO_BORDERS).set_header(header);
+    let preset = match style {
+        Style::Terminal => UTF8_NO_BORDERS,
+        Style::Markdown => ASCII_MARKDOWN,
+    };
+    table.load_style(preset).set_header(header);
     table.style_mut().row_separator = LineStyle::none();
     for row in rows {
         table.add_row(row);

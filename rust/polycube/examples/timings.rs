@@ -9,7 +9,7 @@
 //! ```
 //!
 //! Times are in milliseconds: the shortest run or, where that is less because the machine was busy with other work, the
-//! mean processor time of all runs.
+//! mean processor time of all runs, over all threads.
 
 use polycube::align::neighbours::neighbours;
 use polycube::align::{Options, Strategy, align};
@@ -44,10 +44,12 @@ fn best<T>(mut work: impl FnMut() -> Result<T>) -> Result<(T, f64)> {
     }
 }
 
-/// How long this thread has run so far, in milliseconds, where `/proc` says so.
+/// How long the threads of this process have run so far, all together, in milliseconds, where `/proc` says so.
 fn processor_time() -> Option<f64> {
-    let text = std::fs::read_to_string("/proc/self/schedstat").ok()?;
-    text.split_whitespace().next()?.parse().ok().map(|nanoseconds: f64| nanoseconds * 1e-6)
+    let tasks = std::fs::read_dir("/proc/self/task").ok()?;
+    let run = |task: std::fs::DirEntry| std::fs::read_to_string(task.path().join("schedstat")).ok();
+    let nanoseconds = |text: String| text.split_whitespace().next()?.parse::<f64>().ok();
+    tasks.flatten().map(|task| run(task).and_then(nanoseconds)).sum::<Option<f64>>().map(|sum| sum * 1e-6)
 }
 
 fn structure(mesh: &Mesh) -> Result<Polycube> {

@@ -4,6 +4,7 @@
 //! [`mesh`] → [`structure`] → [`align`] → [`layout`] → [`map`] → [`remesh`].
 
 pub mod align;
+pub mod compare;
 pub mod context;
 pub mod error;
 pub mod generate;
@@ -14,6 +15,7 @@ pub mod optimise;
 pub mod remesh;
 pub mod simplify;
 pub mod structure;
+pub mod validate;
 
 pub use context::Context;
 pub use error::{Error, ErrorKind, Place, Result};

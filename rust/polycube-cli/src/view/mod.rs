@@ -1,7 +1,6 @@
 //! `polycube view`.
 
 mod cells;
-mod colour;
 mod hexes;
 mod page;
 mod picture;
@@ -11,13 +10,13 @@ mod scene;
 use crate::args::{PolycubeArgs, fraction};
 use crate::failure::{Failure, Result};
 use crate::mesh_files::MeshFiles;
-use crate::output::Output;
+use crate::output;
 use crate::progress::Progress;
 use crate::simplify::StrategyArg;
 use crate::terminal;
 use clap::ValueHint;
+use polycube::Context;
 use polycube::simplify::default_objective;
-use polycube::{Context, Error, ErrorKind};
 use scene::Scene;
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
@@ -109,24 +108,12 @@ fn work(args: &Args, context: &Context) -> Result<()> {
     let picture = args.png.as_ref().map(|_| picture::png(&scene, args.png_size, &writing)).transpose()?;
     let page = page::html(&title(&args.mesh.polycube), &scene, hexes.as_ref())?;
     if let (Some(path), Some(bytes)) = (&args.png, picture) {
-        write(path, &bytes, context)?;
+        output::write_file(path, &bytes, context)?;
     }
-    write(&args.output, page.as_bytes(), context)
+    Ok(output::write_file(&args.output, page.as_bytes(), context)?)
 }
 
 fn title(path: &Path) -> String {
     let name = path.file_name().unwrap_or(path.as_os_str()).to_string_lossy();
     name.split('.').next().unwrap_or_default().to_owned()
-}
-
-/// Writes a file whole or not at all, and makes its folder.
-fn write(path: &Path, bytes: &[u8], context: &Context) -> Result<()> {
-    let (Some(name), Some(folder)) = (path.file_name().and_then(|n| n.to_str()), path.parent()) else {
-        let message = format!("{} is not the name of a file", path.display());
-        return Err(Error::new(ErrorKind::Option, message).remedy("name a file to write").into());
-    };
-    let folder = if folder.as_os_str().is_empty() { Path::new(".") } else { folder };
-    let mut output = Output::new(folder)?;
-    output.add(name, bytes)?;
-    Ok(output.publish(&[], context)?)
 }

@@ -1,8 +1,8 @@
 //! A picture without a display: input above result where there is a shape, else beside it.
 
-use super::colour::Colour;
 use super::raster::{Corner, Raster};
 use super::scene::{Layout, Scene};
+use crate::colour::{self, Colour};
 use polycube::mesh::Point;
 use polycube::{Context, Error, ErrorKind, Result};
 use std::array::from_fn;
@@ -133,8 +133,8 @@ fn encode(rows: &[Vec<Pane>], size: usize) -> Result<Vec<u8>> {
     let mut pixels = Vec::new();
     for row in rows {
         for y in 0..size {
-            let line = row.iter().flat_map(|pane| &pane.colours[y * pane.size..(y + 1) * pane.size]).flatten();
-            pixels.extend(line.map(|x| (x * 255.0).round() as u8));
+            let line = row.iter().flat_map(|pane| &pane.colours[y * pane.size..(y + 1) * pane.size]);
+            pixels.extend(line.flat_map(|&c| colour::bytes(c)));
         }
     }
     let width = rows.first().map_or(0, Vec::len) * size;

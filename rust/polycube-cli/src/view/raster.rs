@@ -1,7 +1,7 @@
 //! Triangles to pixels: a z-buffer that knows what is seen where.
 
 use super::cells::Tile;
-use super::colour::{Colour, INK, pastel};
+use crate::colour::{Colour, INK, pastel};
 
 /// A corner of a triangle, seen.
 #[derive(Clone, Copy)]

@@ -1,6 +1,7 @@
 //! The command as a user runs it.
 #![allow(clippy::unwrap_used, reason = "tests fail by panicking")]
 
+mod compare;
 mod demo;
 mod failures;
 mod guides;

@@ -1,33 +1,54 @@
-//! The objective at a complete order.
+//! Whether an order of levels is a valid polycube, and what it counts: quickly where rows of bits hold it.
 
-use crate::align::guides::is_valid;
-use crate::align::ranks::Ranks;
-use crate::layout::{Counter, Objective, count, counter};
+use super::guides::is_valid;
+use super::ranks::Ranks;
+use crate::layout::{Counter, Counts, Objective, count, counter};
 use crate::structure::{Arrangement, Structure};
 
-/// Says whether a complete order is valid, and what it costs.
+/// Says whether an order is valid, and what it costs. Makes its work space once.
 pub struct Judge<'a> {
     structure: &'a Structure,
-    objective: Objective,
     rows: Option<Box<dyn Counter>>,
 }
 
 impl<'a> Judge<'a> {
-    pub fn new(structure: &'a Structure, objective: Objective) -> Self {
-        Self { structure, objective, rows: counter(structure) }
+    /// A judge of the orders of `structure`.
+    pub fn new(structure: &'a Structure) -> Self {
+        Self { structure, rows: counter(structure) }
     }
 
-    /// The objective, nothing for an order that is not valid.
-    pub fn cost(&mut self, ranks: &Ranks) -> Option<usize> {
+    /// What `objective` counts, nothing for an order that is not valid.
+    pub fn cost(&mut self, objective: Objective, ranks: &Ranks) -> Option<usize> {
         match &mut self.rows {
-            Some(rows) => rows.count(self.objective, &ranks.of_level, ranks.planes),
-            None => self.count_slowly(ranks),
+            Some(rows) => rows.count(objective, &ranks.of_level, ranks.planes),
+            None => self.counts_slowly(ranks).map(|c| c.of(objective)),
         }
     }
 
-    fn count_slowly(&self, ranks: &Ranks) -> Option<usize> {
+    /// All three numbers, nothing for an order that is not valid.
+    pub fn counts(&mut self, ranks: &Ranks) -> Option<Counts> {
+        match &mut self.rows {
+            Some(rows) => rows.counts(&ranks.of_level, ranks.planes),
+            None => self.counts_slowly(ranks),
+        }
+    }
+
+    /// Whether the order is known to be valid; one that is too long for rows of bits is not.
+    pub fn knows_valid(&mut self, ranks: &Ranks) -> bool {
+        self.rows.as_mut().is_some_and(|rows| rows.is_valid(&ranks.of_level, ranks.planes))
+    }
+
+    /// All three numbers of a placement that is known to be valid.
+    pub fn counts_of(&mut self, placement: &[f64]) -> Counts {
+        let quick = self.rows.as_mut().and_then(|rows| {
+            let ranks = Ranks::new(self.structure, placement);
+            rows.counts(&ranks.of_level, ranks.planes)
+        });
+        quick.unwrap_or_else(|| count(&Arrangement::new(self.structure, placement)))
+    }
+
+    fn counts_slowly(&self, ranks: &Ranks) -> Option<Counts> {
         let placement = ranks.placement();
-        let arrangement = || Arrangement::new(self.structure, &placement);
-        is_valid(self.structure, &placement).then(|| count(&arrangement()).of(self.objective))
+        is_valid(self.structure, &placement).then(|| count(&Arrangement::new(self.structure, &placement)))
     }
 }

@@ -95,9 +95,19 @@ pub fn align(structure: &Structure, input: &[f64], options: &Options, context: &
     let task = Task::new(structure, input, count(&arrangement), options, context)?;
     match options.strategy {
         Strategy::Naive => naive(&task),
-        Strategy::Paper => paper::simplify(&task, context),
-        Strategy::Best => search::coarsest(&task, context),
+        Strategy::Paper => checked(structure, paper::simplify(&task, context)?),
+        Strategy::Best => checked(structure, search::coarsest(&task, context)?),
     }
+}
+
+/// The alignment, if its levels are a valid polycube by the exact check.
+fn checked(structure: &Structure, found: Alignment) -> Result<Alignment> {
+    let placement: Placement = found.levels.iter().map(|&x| x as f64).collect();
+    let arrangement = Arrangement::new(structure, &placement);
+    if arrangement.conflicts().is_empty() && arrangement.inside_out().is_empty() {
+        return Ok(found);
+    }
+    Err(Error::new(ErrorKind::Internal, "the polycube found touches itself"))
 }
 
 /// The levels of another point of the front that [`align`] found with the same `options` (the scale may differ): no search, only

@@ -1,8 +1,10 @@
 //! One solve of the integer problem whose result is a valid polycube.
 
 use super::classes::Classes;
+use super::judge::Judge;
 use super::paper::Pair;
 use super::problem::{Difference, Linear, PairTerm, Problem, ShapeTerm};
+use super::ranks::Ranks;
 use super::separate::{holds, separations};
 use super::solve::Solver;
 use crate::context::Context;
@@ -30,13 +32,14 @@ pub struct Demand<'a> {
 /// The solver knows distances only between parts that face each other. When parts that did not face each other
 /// come to touch, the distance that kept them apart in `valid` is added and the problem is solved again. This ends: each
 /// time another change of order is forbidden, and with all of them forbidden the order is that of `valid`.
-pub fn relax<'a>(
-    structure: &'a Structure,
+pub fn relax(
+    structure: &Structure,
     valid: &[f64],
     mut demand: Demand,
     solver: &dyn Solver,
     context: &Context,
-) -> Result<Arrangement<'a>> {
+) -> Result<Placement> {
+    let mut judge = Judge::new(structure);
     let mut start: Vec<i64> = valid.iter().map(|x| x.round() as i64).collect();
     loop {
         let (problem, variables) = problem(structure, &demand);
@@ -45,10 +48,12 @@ pub fn relax<'a>(
         let at = |l: u32| levels[variables.of_level[l as usize] as usize];
         start = (0..structure.levels.len() as u32).map(at).collect();
         let placement: Placement = start.iter().map(|&x| x as f64).collect();
-        let arrangement = Arrangement::new(structure, &placement);
-        let violated = violated(&arrangement, valid);
+        if judge.knows_valid(&Ranks::new(structure, &placement)) {
+            return Ok(placement);
+        }
+        let violated = violated(&Arrangement::new(structure, &placement), valid);
         if violated.is_empty() {
-            return Ok(arrangement);
+            return Ok(placement);
         }
         if violated.iter().all(|d| holds(d, &placement)) {
             return Err(Error::new(ErrorKind::Internal, "the surface touches itself though every order is kept"));

@@ -9,19 +9,22 @@ pub(super) struct Charts {
     pub(super) of_face: Vec<u32>,
     /// The label of every chart.
     pub(super) labels: Vec<Label>,
+    /// The half-edges between two charts, ascending.
+    pub(super) borders: Vec<HalfEdge>,
 }
 
 impl Charts {
     /// Floods the faces label by label; charts are numbered by their first faces.
     pub(super) fn new(surface: &Surface, labels: Vec<Label>) -> Result<Self, Vec<Violation>> {
-        let mut charts = Self { of_face: vec![u32::MAX; labels.len()], labels: Vec::new() };
+        let mut charts = Self { of_face: vec![u32::MAX; labels.len()], labels: Vec::new(), borders: Vec::new() };
         for seed in 0..labels.len() {
             if charts.of_face[seed] == u32::MAX {
                 charts.flood(surface, &labels, seed);
             }
         }
+        charts.borders = surface.half_edges().filter(|&h| charts.is_border(surface, h)).collect();
         let opposite = |&h: &HalfEdge| charts.label(surface, h) == charts.label(surface, surface.twin(h)).opposite();
-        let once = surface.half_edges().filter(|&h| h < surface.twin(h)).filter(opposite);
+        let once = charts.borders.iter().copied().filter(|&h| h < surface.twin(h)).filter(opposite);
         let edge = |h| [surface.start(h), surface.end(h)];
         let violations: Vec<_> = once.map(|h| Violation::OppositeCharts { edge: edge(h) }).collect();
         if violations.is_empty() { charts.check_genus(surface) } else { Err(violations) }
@@ -67,23 +70,11 @@ impl Charts {
 
     /// A flat chart is a disc with holes: its Euler number and its boundary loops must agree, and there is a loop.
     fn check_genus(self, surface: &Surface) -> Result<Self, Vec<Violation>> {
-        let mut euler = vec![0_i64; self.labels.len()];
         let mut first = vec![u32::MAX; self.labels.len()];
         for (face, &chart) in (0..).zip(&self.of_face) {
-            euler[chart as usize] += 1;
             first[chart as usize] = first[chart as usize].min(face);
         }
-        let inner = |h: &HalfEdge| !self.is_border(surface, *h);
-        for h in surface.half_edges().filter(|&h| h < surface.twin(h)).filter(inner) {
-            euler[self.left(surface, h) as usize] -= 1;
-        }
-        for vertex in 0..surface.vertex_count() as u32 {
-            if let Some(h) = surface.fan(vertex).next()
-                && surface.fan(vertex).all(|h| inner(&h))
-            {
-                euler[self.left(surface, h) as usize] += 1;
-            }
-        }
+        let mut euler = self.inner_euler(surface);
         let mut is_closed = vec![true; self.labels.len()];
         for (chart, loops) in self.border_loops(surface) {
             euler[chart as usize] += i64::from(loops > 0);
@@ -98,11 +89,29 @@ impl Charts {
         if violations.is_empty() { Ok(self) } else { Err(violations) }
     }
 
+    /// For every chart its faces and inner vertices, less its inner edges.
+    fn inner_euler(&self, surface: &Surface) -> Vec<i64> {
+        let mut twice = vec![0_i64; self.labels.len()];
+        for (face, &chart) in surface.faces().iter().zip(&self.of_face) {
+            twice[chart as usize] += 2 - face.vertices().len() as i64;
+        }
+        let mut on_border = vec![false; surface.vertex_count()];
+        for &h in &self.borders {
+            twice[self.left(surface, h) as usize] += 1;
+            on_border[surface.start(h) as usize] = true;
+        }
+        let inner = (0..).zip(on_border).filter(|(_, on_border)| !on_border);
+        for h in inner.filter_map(|(vertex, _)| surface.fan(vertex).next()) {
+            twice[self.left(surface, h) as usize] += 2;
+        }
+        twice.iter().map(|t| t / 2).collect()
+    }
+
     /// Every border loop: its chart and its length in mesh edges.
     fn border_loops(&self, surface: &Surface) -> Vec<(u32, usize)> {
         let mut seen = vec![false; 4 * surface.faces().len()];
         let mut loops = Vec::new();
-        for first in surface.half_edges().filter(|&h| self.is_border(surface, h)) {
+        for &first in &self.borders {
             let mut length = 0;
             let mut h = first;
             while !std::mem::replace(&mut seen[h as usize], true) {

@@ -23,8 +23,9 @@ pub(super) struct Skeleton {
 impl Skeleton {
     /// Finds corners and follows the borders between them.
     pub(super) fn new(surface: &Surface, charts: &Charts) -> Result<Self, Vec<Violation>> {
-        let borders = |v: u32| surface.fan(v).filter(|&h| charts.is_border(surface, h)).count();
-        let corners: Vec<u32> = (0..surface.vertex_count() as u32).filter(|&v| borders(v) >= 3).collect();
+        let mut borders = vec![0_u32; surface.vertex_count()];
+        charts.borders.iter().for_each(|&h| borders[surface.start(h) as usize] += 1);
+        let corners: Vec<u32> = (0..).zip(borders).filter(|(_, count)| *count >= 3).map(|(v, _)| v).collect();
         let incomplete = |v: &&u32| {
             let axes = surface.fan(**v).fold(0, |m, h| m | 1 << charts.label(surface, h).axis());
             axes != 0b111
@@ -43,8 +44,7 @@ impl Skeleton {
     fn trace(&mut self, surface: &Surface, charts: &Charts) {
         let mut is_corner = vec![false; surface.vertex_count()];
         self.corners.iter().for_each(|&v| is_corner[v as usize] = true);
-        let leaving =
-            surface.half_edges().filter(|&h| charts.is_border(surface, h) && is_corner[surface.start(h) as usize]);
+        let leaving = charts.borders.iter().copied().filter(|&h| is_corner[surface.start(h) as usize]);
         let mut following = Vec::new();
         for first in leaving {
             let mut half_edges = vec![first];
@@ -75,7 +75,7 @@ impl Skeleton {
                 Violation::TooFewCorners { face, corners: l.len() }
             })
             .collect();
-        for first in surface.half_edges().filter(|&h| charts.is_border(surface, h)) {
+        for &first in &charts.borders {
             let mut h = first;
             let mut fresh = false;
             while !std::mem::replace(&mut on_chain[h as usize], true) {
@@ -243,9 +243,9 @@ fn diagonal(points: &[Point]) -> f64 {
 /// The level of every vertex along every axis: that of the charts around it.
 fn vertex_levels(surface: &Surface, charts: &Charts, level_of: &[u32], vertices: usize) -> Vec<[Option<u32>; 3]> {
     let mut levels = vec![[None; 3]; vertices];
-    for h in surface.half_edges() {
-        let chart = charts.left(surface, h) as usize;
-        levels[surface.start(h) as usize][charts.labels[chart].axis()] = Some(level_of[chart]);
+    for (face, &chart) in surface.faces().iter().zip(&charts.of_face) {
+        let (axis, level) = (charts.labels[chart as usize].axis(), level_of[chart as usize]);
+        face.vertices().iter().for_each(|&v| levels[v as usize][axis] = Some(level));
     }
     levels
 }
@@ -261,10 +261,10 @@ fn place(
     merge: f64,
 ) -> Placement {
     let mut range = vec![(f64::INFINITY, f64::NEG_INFINITY); levels.len()];
-    for h in surface.half_edges() {
-        let level = level_of[charts.left(surface, h) as usize] as usize;
-        let x = points[surface.start(h) as usize][levels[level].axis];
-        range[level] = (range[level].0.min(x), range[level].1.max(x));
+    for (face, &chart) in surface.faces().iter().zip(&charts.of_face) {
+        let level = level_of[chart as usize] as usize;
+        let along = face.vertices().iter().map(|&v| points[v as usize][levels[level].axis]);
+        range[level] = along.fold(range[level], |(low, high), x| (low.min(x), high.max(x)));
     }
     let mut placement: Placement = range.iter().map(|r| f64::midpoint(r.0, r.1)).collect();
     let mut order: Vec<usize> = (0..levels.len()).collect();

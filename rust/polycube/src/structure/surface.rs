@@ -67,13 +67,13 @@ impl Surface {
     /// The next side of the same face.
     pub fn next(&self, h: HalfEdge) -> HalfEdge {
         let sides = self.faces[self.face(h)].vertices().len() as u32;
-        h - h % 4 + (h % 4 + 1) % sides
+        if h % 4 + 1 == sides { h + 1 - sides } else { h + 1 }
     }
 
     /// The side before `h` in the same face.
     pub fn previous(&self, h: HalfEdge) -> HalfEdge {
         let sides = self.faces[self.face(h)].vertices().len() as u32;
-        h - h % 4 + (h % 4 + sides - 1) % sides
+        if h.is_multiple_of(4) { h + sides - 1 } else { h - 1 }
     }
 
     /// The vertex that `h` starts from.
@@ -93,17 +93,30 @@ impl Surface {
         std::iter::successors(Some(first).filter(|&h| h != NONE), turn)
     }
 
+    /// Calls `visit` with every half-edge and the vertices it runs from and to, face by face.
+    fn each_side(&self, mut visit: impl FnMut(HalfEdge, u32, u32)) {
+        for (first, face) in (0..).step_by(4).zip(&self.faces) {
+            let vertices = face.vertices();
+            let mut from = vertices[0];
+            for (h, &to) in (first..).zip(&vertices[1..]) {
+                visit(h, from, to);
+                from = to;
+            }
+            visit(first + vertices.len() as u32 - 1, from, vertices[0]);
+        }
+    }
+
     /// Pairs up half-edges over one mesh edge.
     fn link(&mut self) -> Vec<Violation> {
         let mut violations = Vec::new();
         let mut twins = std::mem::take(&mut self.twins);
         for (vertex, own) in (0..).zip(self.by_lower_end().chunks()) {
-            for group in own.chunk_by(|a, b| a.0 == b.0) {
-                let edge = [vertex, group[0].0];
+            for group in own.chunk_by(|a, b| a.to == b.to) {
+                let edge = [vertex, group[0].to];
                 match *group {
-                    [(_, a), (_, b)] if self.start(a) != self.start(b) => {
-                        twins[a as usize] = b;
-                        twins[b as usize] = a;
+                    [a, b] if a.up != b.up => {
+                        twins[a.half_edge as usize] = b.half_edge;
+                        twins[b.half_edge as usize] = a.half_edge;
                     }
                     [_] => violations.push(Violation::OpenEdge { edge }),
                     [_, _] => violations.push(Violation::InconsistentOrientation { edge }),
@@ -118,53 +131,57 @@ impl Surface {
     /// For every vertex the half-edges to and from vertices with higher numbers, sorted by those. O(n) unless many meet
     /// at one vertex.
     fn by_lower_end(&self) -> Buckets {
-        let ends = |h: HalfEdge| ordered([self.start(h), self.end(h)]);
         let mut starts = vec![0; self.outgoing.len() + 1];
-        self.half_edges().for_each(|h| starts[ends(h)[0] as usize + 1] += 1);
+        self.each_side(|_, from, to| starts[from.min(to) as usize + 1] += 1);
         for v in 1..starts.len() {
             starts[v] += starts[v - 1];
         }
         let mut free = starts.clone();
-        let mut entries = vec![(0, 0); starts[self.outgoing.len()]];
-        for h in self.half_edges() {
-            let [low, high] = ends(h);
-            entries[free[low as usize]] = (high, h);
-            free[low as usize] += 1;
-        }
-        starts.windows(2).for_each(|w| entries[w[0]..w[1]].sort_unstable());
+        let mut entries = vec![Spoke { to: 0, half_edge: 0, up: true }; starts[self.outgoing.len()]];
+        self.each_side(|half_edge, from, to| {
+            let place = &mut free[from.min(to) as usize];
+            entries[*place] = Spoke { to: from.max(to), half_edge, up: from < to };
+            *place += 1;
+        });
+        starts.windows(2).for_each(|w| entries[w[0]..w[1]].sort_unstable_by_key(|s| (s.to, s.half_edge)));
         Buckets { starts, entries }
     }
 
     /// Finds a half-edge out of each vertex and the vertices with more than one fan.
     fn start_fans(&mut self) -> Vec<Violation> {
         let mut valence = vec![0_u32; self.outgoing.len()];
-        let leaving: Vec<(u32, HalfEdge)> = self.half_edges().map(|h| (self.start(h), h)).collect();
-        for (vertex, h) in leaving {
-            valence[vertex as usize] += 1;
-            if self.outgoing[vertex as usize] == NONE {
-                self.outgoing[vertex as usize] = h;
-            }
-        }
+        let mut outgoing = std::mem::take(&mut self.outgoing);
+        self.each_side(|h, from, _| {
+            valence[from as usize] += 1;
+            outgoing[from as usize] = outgoing[from as usize].min(h);
+        });
+        self.outgoing = outgoing;
         let several = |&v: &u32| self.fan(v).count() < valence[v as usize] as usize;
         let vertices = 0..valence.len() as u32;
         vertices.filter(several).map(|vertex| Violation::NonManifoldVertex { vertex }).collect()
     }
 }
 
-/// Half-edges with their higher ends, vertex by vertex.
+/// A half-edge at the lower of its two vertices.
+#[derive(Clone, Copy)]
+struct Spoke {
+    /// The higher vertex.
+    to: u32,
+    half_edge: HalfEdge,
+    /// Whether it runs to the higher vertex.
+    up: bool,
+}
+
+/// Half-edges by their lower ends, vertex by vertex.
 struct Buckets {
     starts: Vec<usize>,
-    entries: Vec<(u32, HalfEdge)>,
+    entries: Vec<Spoke>,
 }
 
 impl Buckets {
-    fn chunks(&self) -> impl Iterator<Item = &[(u32, HalfEdge)]> {
+    fn chunks(&self) -> impl Iterator<Item = &[Spoke]> {
         self.starts.windows(2).map(|w| &self.entries[w[0]..w[1]])
     }
-}
-
-fn ordered([a, b]: [u32; 2]) -> [u32; 2] {
-    [a.min(b), a.max(b)]
 }
 
 fn bad_faces(faces: &[Face], vertices: usize) -> Vec<Violation> {

@@ -7,7 +7,6 @@ use crate::align::search::Moves;
 use crate::context::Context;
 use crate::error::{Error, ErrorKind, Result};
 use crate::generate::SplitMix64;
-use crate::layout::Objective;
 use crate::structure::{Arrangement, Placement, Structure};
 
 /// Moves tried per level to make the input respect the guides.
@@ -39,7 +38,7 @@ pub fn is_valid(structure: &Structure, placement: &[f64]) -> bool {
 /// A walk over valid orders from that of the input that never gets farther from the guides.
 fn repaired(structure: &Structure, input: &[f64], guided: &Guided, context: &Context) -> Result<Placement> {
     let moves = Moves::new(structure, &Guided::free(structure), Vec::new());
-    let mut judge = Judge::new(structure, Objective::BlocksPadded);
+    let mut judge = Judge::new(structure);
     let mut random = SplitMix64::new(1);
     let mut now = Ranks::new(structure, input);
     let mut missing = guided.missing(&now);
@@ -47,7 +46,7 @@ fn repaired(structure: &Structure, input: &[f64], guided: &Guided, context: &Con
         context.tick(0.0)?;
         let Some((next, _)) = moves.draw(&now, false, &mut random) else { continue };
         let its = guided.missing(&next);
-        if its <= missing && judge.cost(&next).is_some() {
+        if its <= missing && judge.counts(&next).is_some() {
             (now, missing) = (next, its);
         }
         if missing == 0 {

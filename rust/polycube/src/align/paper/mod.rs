@@ -16,10 +16,10 @@ use super::solve::Solver;
 use crate::align::to_integers;
 use crate::context::Context;
 use crate::error::Result;
-use crate::layout::{Counts, count};
-use crate::structure::{Arrangement, Structure};
+use crate::layout::Counts;
+use crate::structure::{Arrangement, Placement, Structure};
 use constraints::structural;
-use pairs::candidates;
+use pairs::{candidates, visible_neighbours};
 
 /// One round of Algorithm 1.
 #[derive(Clone, Debug, PartialEq, serde::Serialize)]
@@ -38,14 +38,23 @@ pub struct Round {
     pub levels: Vec<i64>,
 }
 
+/// A round whose result is not yet counted.
+struct Step {
+    lambda: f64,
+    pairs: usize,
+    alignments: usize,
+    levels: Vec<i64>,
+}
+
 /// Where Algorithm 1 ended.
 pub struct Outcome<'a> {
-    /// A valid arrangement, integer after the first round.
-    pub arrangement: Arrangement<'a>,
+    structure: &'a Structure,
+    /// A valid placement, integer after the first round.
+    pub placement: Placement,
     /// The alignments found.
     pub classes: Classes,
     /// What happened on the way.
-    pub rounds: Vec<Round>,
+    steps: Vec<Step>,
 }
 
 impl<'a> Outcome<'a> {
@@ -59,15 +68,15 @@ impl<'a> Outcome<'a> {
                 classes.join(a, b);
             }
         }
-        Self { arrangement: Arrangement::new(structure, placement), classes, rounds: Vec::new() }
+        Self { structure, placement: placement.to_vec(), classes, steps: Vec::new() }
     }
 
     /// The finalisation of section 6: as near to `targets` as the alignments found allow, with λ = 1.
-    pub fn settle(&self, targets: &[f64], solver: &dyn Solver, context: &Context) -> Result<Arrangement<'a>> {
-        let differences = structural(&self.arrangement);
+    pub fn settle(&self, targets: &[f64], solver: &dyn Solver, context: &Context) -> Result<Placement> {
+        let differences = structural(&Arrangement::new(self.structure, &self.placement));
         let demand =
             Demand { targets, classes: &self.classes, pairs: &[], halvings: 0, differences, planes: Vec::new() };
-        relax(self.arrangement.structure(), self.arrangement.placement(), demand, solver, context)
+        relax(self.structure, &self.placement, demand, solver, context)
     }
 }
 
@@ -87,7 +96,7 @@ pub struct Settings<'a> {
 /// Aligns the corners of a valid placement, given in lattice steps.
 pub fn run<'a>(structure: &'a Structure, input: &[f64], settings: &Settings, context: &Context) -> Result<Outcome<'a>> {
     let classes = settings.guided.classes().clone();
-    let outcome = Outcome { arrangement: Arrangement::new(structure, input), classes, rounds: Vec::new() };
+    let outcome = Outcome { structure, placement: input.to_vec(), classes, steps: Vec::new() };
     let mut state = State { input, settings, outcome, plan: None };
     for halvings in 0..=Problem::MAX_HALVINGS {
         let lambda = 0.5_f64.powi(halvings as i32);
@@ -105,7 +114,6 @@ struct Plan {
     differences: Vec<Difference>,
     pairs: Vec<Pair>,
     planes: Vec<Linear>,
-    counts: Counts,
 }
 
 struct State<'a, 's> {
@@ -126,7 +134,7 @@ impl State<'_, '_> {
         if plan.pairs.is_empty() {
             return Ok(false);
         }
-        let (structure, before) = (self.outcome.arrangement.structure(), self.outcome.arrangement.placement());
+        let (structure, before) = (self.outcome.structure, &self.outcome.placement);
         let demand = Demand {
             targets: self.input,
             classes: &self.outcome.classes,
@@ -135,35 +143,34 @@ impl State<'_, '_> {
             differences: plan.differences.clone(),
             planes: plan.planes.clone(),
         };
-        let arrangement = relax(structure, before, demand, self.settings.solver, context)?;
-        let moved = arrangement.placement() != before;
-        self.outcome.arrangement = arrangement;
+        let placement = relax(structure, before, demand, self.settings.solver, context)?;
+        let moved = placement != *before;
+        self.outcome.placement = placement;
         let alignments = self.keep(&plan.pairs);
-        let counts = if moved { count(&self.outcome.arrangement) } else { plan.counts };
         let lambda = 0.5_f64.powi(halvings as i32);
-        let levels = to_integers(self.outcome.arrangement.placement());
-        self.outcome.rounds.push(Round { lambda, pairs: plan.pairs.len(), alignments, counts, levels });
+        let levels = to_integers(&self.outcome.placement);
+        self.outcome.steps.push(Step { lambda, pairs: plan.pairs.len(), alignments, levels });
         self.plan = (!moved && alignments == 0).then_some(plan);
         Ok(alignments > 0 || lambda * self.pull() >= 1.0)
     }
 
     fn make_plan(&self, context: &Context) -> Result<Plan> {
-        let arrangement = &self.outcome.arrangement;
-        let mut differences = structural(arrangement);
+        let arrangement = Arrangement::new(self.outcome.structure, &self.outcome.placement);
+        let (mut differences, neighbours) =
+            rayon::join(|| structural(&arrangement), || visible_neighbours(&arrangement, context));
         differences.extend(self.settings.guided.differences(arrangement.placement()));
-        let pairs = candidates(arrangement, &self.outcome.classes, &differences, context)?;
+        let pairs = candidates(&arrangement, &neighbours?, &self.outcome.classes, &differences);
         let planes = if self.settings.oblique_planes {
             pairs.iter().flat_map(|p| self.oblique(p)).collect()
         } else {
             Vec::new()
         };
-        let counts = self.outcome.rounds.last().map_or_else(|| count(arrangement), |r| r.counts);
-        Ok(Plan { differences, pairs, planes, counts })
+        Ok(Plan { differences, pairs, planes })
     }
 
     /// Joins the levels of every pair that came together.
     fn keep(&mut self, pairs: &[Pair]) -> usize {
-        let (structure, placement) = (self.outcome.arrangement.structure(), self.outcome.arrangement.placement());
+        let (structure, placement) = (self.outcome.structure, &self.outcome.placement);
         let met = |[a, b]: &[u32; 2]| placement[*a as usize] == placement[*b as usize];
         let classes = &mut self.outcome.classes;
         pairs.iter().map(|p| p.levels(structure)).filter(met).filter(|&[a, b]| classes.join(a, b)).count()
@@ -172,13 +179,12 @@ impl State<'_, '_> {
     /// An upper bound of what moving every level by its present displacement costs in E_shape. Once λ times this
     /// is under the least change of the integer E_align, a smaller λ changes nothing.
     fn pull(&self) -> f64 {
-        let arrangement = &self.outcome.arrangement;
-        let levels = arrangement.structure().levels.iter().zip(self.input).zip(arrangement.placement());
+        let levels = self.outcome.structure.levels.iter().zip(self.input).zip(&self.outcome.placement);
         levels.map(|((l, t), x)| f64::from(l.corners) * (x - t) * (x - t)).sum()
     }
 
     fn position(&self, corner: u32) -> [f64; 3] {
-        self.outcome.arrangement.structure().position(corner, self.outcome.arrangement.placement())
+        self.outcome.structure.position(corner, &self.outcome.placement)
     }
 
     fn difference_of(&self, pair: &Pair) -> [f64; 3] {
@@ -193,7 +199,7 @@ impl State<'_, '_> {
         let [p, q] = pair.corners.map(|c| self.position(c));
         let middle: f64 = (0..3).map(|k| normal[k] * f64::midpoint(p[k], q[k])).sum();
         let side = |corner: u32, sign: f64| {
-            let levels = self.outcome.arrangement.structure().corners[corner as usize].levels;
+            let levels = self.outcome.structure.corners[corner as usize].levels;
             let terms = (0..3).filter(|&k| normal[k] != 0.0).map(|k| (levels[k], sign * normal[k])).collect();
             Linear { terms, at_least: sign * middle + 0.5 }
         };

@@ -24,20 +24,11 @@ impl Pair {
     }
 }
 
-/// For every corner and axis the nearest neighbour that it can align with, each pair once, ascending.
-///
-/// Neighbours are corners with adjacent Voronoi cells, without (a) the two ends of an edge, (b) two corners with a common
-/// edge-neighbour, (c) pairs whose middle lies outside the polycube. Along an axis a pair can align if its levels
-/// are not aligned yet, if `differences` do not force them apart, and if another axis is left to keep the corners apart.
-pub fn candidates(
-    arrangement: &Arrangement,
-    classes: &Classes,
-    differences: &[Difference],
-    context: &Context,
-) -> Result<Vec<Pair>> {
+/// Corners with adjacent Voronoi cells, without (a) the two ends of an edge, (b) two corners with a common
+/// edge-neighbour, (c) pairs whose middle lies outside the polycube.
+pub fn visible_neighbours(arrangement: &Arrangement, context: &Context) -> Result<Vec<[u32; 2]>> {
     let structure = arrangement.structure();
-    let positions: Vec<[f64; 3]> =
-        (0..structure.corners.len() as u32).map(|c| structure.position(c, arrangement.placement())).collect();
+    let positions = positions(arrangement);
     let mut near = neighbours(&on_grid(&positions), context)?;
     let beside = edge_neighbours(structure);
     near.retain(|&[a, b]| {
@@ -46,16 +37,34 @@ pub fn candidates(
     });
     let middle =
         |[a, b]: [u32; 2]| std::array::from_fn(|k| f64::midpoint(positions[a as usize][k], positions[b as usize][k]));
-    let inside: Vec<[u32; 2]> =
-        near.into_par_iter().with_min_len(1024).filter(|&pair| arrangement.contains(middle(pair))).collect();
+    Ok(near.into_par_iter().with_min_len(1024).filter(|&pair| arrangement.contains(middle(pair))).collect())
+}
+
+/// For every corner and axis the nearest of its `neighbours` that it can align with, each pair once, ascending.
+///
+/// Along an axis a pair can align if its levels are not aligned yet, if `differences` do not force them apart, and if
+/// another axis is left to keep the corners apart.
+pub fn candidates(
+    arrangement: &Arrangement,
+    neighbours: &[[u32; 2]],
+    classes: &Classes,
+    differences: &[Difference],
+) -> Vec<Pair> {
+    let structure = arrangement.structure();
+    let positions = positions(arrangement);
     let order = Order::new(classes, differences, arrangement.placement());
     let mut pairs = Vec::new();
     for axis in 0..3 {
-        nearest(structure, &positions, &inside, axis, &order, classes, &mut pairs);
+        nearest(structure, &positions, neighbours, axis, &order, classes, &mut pairs);
     }
     pairs.sort_unstable();
     pairs.dedup();
-    Ok(pairs)
+    pairs
+}
+
+fn positions(arrangement: &Arrangement) -> Vec<[f64; 3]> {
+    let structure = arrangement.structure();
+    (0..structure.corners.len() as u32).map(|c| structure.position(c, arrangement.placement())).collect()
 }
 
 /// Positions in 1/256 of a lattice step: exact for integers.

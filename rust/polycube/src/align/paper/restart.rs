@@ -1,15 +1,17 @@
 //! Algorithm 1 until a fresh start finds nothing more.
 
-use super::{Round, Settings, run};
+use super::{Round, Settings, Step, run};
 use crate::align::guides::{Guided, is_valid};
+use crate::align::judge::Judge;
 use crate::align::place::place_in_order;
 use crate::align::ranks::Ranks;
 use crate::align::unit::Unit;
 use crate::align::{Alignment, SolverKind, Task};
 use crate::context::Context;
 use crate::error::Result;
-use crate::layout::{Counts, count};
-use crate::structure::{Arrangement, Placement};
+use crate::layout::Counts;
+use crate::structure::{Placement, Structure};
+use rayon::prelude::*;
 
 /// Algorithm 1 from λ = 1 again and again until it finds nothing more, so that a second call changes nothing.
 ///
@@ -49,19 +51,19 @@ pub fn descend(task: &Task, targets: &[f64], placing: &Guided, context: &Context
         Settings { lambda_min: task.options.lambda_min, solver: &*solver, guided: &task.guided, oblique_planes };
     let place = |order: &[f64]| place_in_order(structure, &Ranks::new(structure, order), targets, placing);
     let mut best = place(&task.start)?;
-    let mut after =
-        if task.start == task.input { task.before } else { count(&Arrangement::new(structure, &task.start)) };
+    let mut judge = Judge::new(structure);
+    let mut after = if task.start == task.input { task.before } else { judge.counts_of(&task.start) };
     let mut rounds = Vec::new();
     let mut from = task.start.clone();
     loop {
         let (found, steps) = improve(task, &from, &settings, context)?;
-        let counts = found.as_ref().map(count);
+        let counts = found.as_ref().map(|f| judge.counts_of(f));
         let improved = counts.filter(|c| c.blocks_padded < after.blocks_padded);
         if rounds.is_empty() || improved.is_some() {
-            rounds.extend(steps);
+            rounds.extend(counted(structure, steps));
         }
         let (Some(found), Some(counts)) = (found, improved) else { break };
-        best = place(found.placement())?;
+        best = place(&found)?;
         from = best.iter().map(|&x| x as f64).collect();
         after = counts;
     }
@@ -70,33 +72,44 @@ pub fn descend(task: &Task, targets: &[f64], placing: &Guided, context: &Context
 
 /// One run of Algorithm 1 on `from`, settled near the start or, if only that is as coarse, near `from`; nothing if the guides do
 /// not allow where it ends.
-fn improve<'a>(
-    task: &Task<'a>,
+fn improve(
+    task: &Task,
     from: &[f64],
     settings: &Settings,
     context: &Context,
-) -> Result<(Option<Arrangement<'a>>, Vec<Round>)> {
+) -> Result<(Option<Placement>, Vec<Step>)> {
     let structure = task.structure;
     let own = Unit::of(structure, from).apply(structure, from);
     let outcome = run(structure, &own, settings, context)?;
     let near = guided(task, outcome.settle(&own, settings.solver, context)?);
     if from == task.start {
-        return Ok((near, outcome.rounds));
+        return Ok((near, outcome.steps));
     }
     let original = Unit::of(structure, &task.start).apply(structure, &task.start);
     let faithful = guided(task, outcome.settle(&original, settings.solver, context)?);
-    let blocks = |a: &Option<Arrangement>| a.as_ref().map_or(usize::MAX, |a| count(a).blocks_padded);
+    let mut judge = Judge::new(structure);
+    let mut blocks = |p: &Option<Placement>| p.as_ref().map_or(usize::MAX, |p| judge.counts_of(p).blocks_padded);
     let coarser = blocks(&faithful) <= blocks(&near);
-    Ok((if coarser { faithful } else { near }, outcome.rounds))
+    Ok((if coarser { faithful } else { near }, outcome.steps))
 }
 
-/// The arrangement if the guides allow it; else the one with everything half way to its mirror image, if that is valid.
-fn guided<'a>(task: &Task<'a>, found: Arrangement<'a>) -> Option<Arrangement<'a>> {
+/// The placement if the guides allow it; else the one with everything half way to its mirror image, if that is valid.
+fn guided(task: &Task, found: Placement) -> Option<Placement> {
     let structure = task.structure;
     let allowed = |placement: &[f64]| task.guided.allows(&Ranks::new(structure, placement));
-    if allowed(found.placement()) {
+    if allowed(&found) {
         return Some(found);
     }
-    let averaged: Placement = task.guided.averaged(structure, found.placement());
-    (allowed(&averaged) && is_valid(structure, &averaged)).then(|| Arrangement::new(structure, &averaged))
+    let averaged: Placement = task.guided.averaged(structure, &found);
+    (allowed(&averaged) && is_valid(structure, &averaged)).then_some(averaged)
+}
+
+/// The steps with what their results count.
+fn counted(structure: &Structure, steps: Vec<Step>) -> Vec<Round> {
+    let round = |judge: &mut Judge, step: Step| {
+        let Step { lambda, pairs, alignments, levels } = step;
+        let placement: Placement = levels.iter().map(|&x| x as f64).collect();
+        Round { lambda, pairs, alignments, counts: judge.counts_of(&placement), levels }
+    };
+    steps.into_par_iter().with_min_len(4).map_init(|| Judge::new(structure), round).collect()
 }

@@ -149,11 +149,12 @@ pub(super) fn prove_guided(
     (budget, time_limit): (u64, Option<Duration>),
     context: &Context,
 ) -> Result<Proof> {
-    let mut judge = Judge::new(structure, objective);
-    let count = Some(incumbent).filter(|i| guided.allows(i)).and_then(|i| judge.cost(i)).ok_or_else(|| {
-        Error::new(ErrorKind::Polycube, "the order to start from is not a valid polycube")
-            .remedy("start from the order of the input, or from a result of `align`")
-    })?;
+    let mut judge = Judge::new(structure);
+    let count =
+        Some(incumbent).filter(|i| guided.allows(i)).and_then(|i| judge.cost(objective, i)).ok_or_else(|| {
+            Error::new(ErrorKind::Polycube, "the order to start from is not a valid polycube")
+                .remedy("start from the order of the input, or from a result of `align`")
+        })?;
     let excluded = |_| Error::new(ErrorKind::Internal, "the rules exclude a valid order");
     let (rules, mut root) = Rules::new(structure).map_err(excluded)?;
     rules.restrict(&mut root, &conditions(guided)).map_err(excluded)?;

@@ -124,7 +124,8 @@ impl<'a> Tree<'a> {
     fn assess(&mut self, relations: Relations, inherited: usize) -> Option<Child> {
         if self.undecided(&relations).is_none() {
             let ranks = self.ranks(&relations);
-            let cost = self.judge.cost(&ranks).filter(|c| *c < self.count && self.guided.allows(&ranks));
+            let cost =
+                self.judge.cost(self.objective, &ranks).filter(|c| *c < self.count && self.guided.allows(&ranks));
             if let Some(cost) = cost {
                 (self.best, self.count) = (ranks, cost);
             }

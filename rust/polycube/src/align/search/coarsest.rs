@@ -12,8 +12,7 @@ use crate::align::unit::Unit;
 use crate::align::{Alignment, LowerBound, Task, TradeOff};
 use crate::context::Context;
 use crate::error::Result;
-use crate::layout::{Objective, count};
-use crate::structure::{Arrangement, Placement};
+use crate::structure::Placement;
 
 /// Algorithm 1, then the search.
 pub fn coarsest(task: &Task, context: &Context) -> Result<Alignment> {
@@ -28,16 +27,17 @@ pub fn coarsest(task: &Task, context: &Context) -> Result<Alignment> {
     let start: Placement = paper.levels.iter().map(|&x| x as f64).collect();
     let found = search(task, &start, &context.stage("search", 0.2, 1.0))?;
     // Fewer patches can mean more blocks; the promise is never more of them than there were.
-    let kept =
-        found.front.states().filter(|s| blocks_padded(structure, &s.ranks.placement()) <= task.before.blocks_padded);
-    let front: Vec<TradeOff> = kept.map(|s| trade_off(task, s)).collect();
+    let mut judge = Judge::new(structure);
+    let most = task.before.blocks_padded;
+    let keeps_promise = |s: &&State| judge.counts(&s.ranks).is_some_and(|c| c.blocks_padded <= most);
+    let front: Vec<TradeOff> = found.front.states().filter(keeps_promise).map(|s| trade_off(task, s)).collect();
     if front.is_empty() {
         return simplify(task, context);
     }
     let chosen = choose(task, &front)?;
     let levels = place_trade_off(task, &front[chosen], context)?;
     let placement: Placement = levels.iter().map(|&x| x as f64).collect();
-    let after = Some(count(&Arrangement::new(structure, &placement)));
+    let after = Some(judge.counts_of(&placement));
     let Proof { bound, proven, nodes, .. } = found.proof;
     let bound = Some(LowerBound { count: bound, proven: proven && front[0].count == bound, nodes });
     let (before, rounds) = (task.before, paper.rounds);
@@ -84,8 +84,9 @@ fn relaxed(task: &Task, found: &Ranks, context: &Context) -> Result<Ranks> {
     let start: Placement = start.iter().map(|&x| x as f64).collect();
     let outcome = Outcome::of(structure, &start);
     let near = outcome.settle(&fine, &*options.solver.solver(), context)?;
-    let order = Ranks::new(structure, near.placement());
-    let (now, then) = (count(&near), count(&outcome.arrangement));
+    let order = Ranks::new(structure, &near);
+    let mut judge = Judge::new(structure);
+    let (now, then) = (judge.counts_of(&near), judge.counts_of(&start));
     let no_worse =
         now.of(options.objective) <= then.of(options.objective) && now.blocks_padded <= task.before.blocks_padded;
     Ok(if no_worse && task.guided.allows(&order) { order } else { found.clone() })

@@ -186,7 +186,7 @@ fn merged(task: &Task, parts: &[Part], states: &[&State], context: &Context) -> 
     let demand = Demand { targets: &fine, classes: &classes, pairs: &[], halvings: 0, differences, planes: Vec::new() };
     // Any order that satisfies the demand will do to begin with: the solver finds the nearest, and the judge looks at it.
     match relax(structure, &fine, demand, &*task.options.solver.solver(), context) {
-        Ok(arrangement) => Ok(Some(Ranks::new(structure, arrangement.placement()))),
+        Ok(placement) => Ok(Some(Ranks::new(structure, &placement))),
         Err(error) if error.kind == crate::ErrorKind::Cancelled => Err(error),
         Err(_) => Ok(None),
     }

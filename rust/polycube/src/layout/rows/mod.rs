@@ -13,7 +13,7 @@ mod word;
 
 use word::{Wide, Word};
 
-use super::Objective;
+use super::{Counts, Objective};
 use crate::structure::Structure;
 
 /// An edge of the structure along one of the two axes across the rows, by the levels it needs.
@@ -72,6 +72,12 @@ pub trait Counter: Send {
     /// See [`Rows::count`].
     fn count(&mut self, objective: Objective, ranks: &[u16], planes: [usize; 3]) -> Option<usize>;
 
+    /// See [`Rows::counts`].
+    fn counts(&mut self, ranks: &[u16], planes: [usize; 3]) -> Option<Counts>;
+
+    /// See [`Rows::is_valid`].
+    fn is_valid(&mut self, ranks: &[u16], planes: [usize; 3]) -> bool;
+
     /// How many words of 64 bits a lattice with all levels apart has: what a count takes is about proportional to that.
     fn words(&self) -> usize;
 }
@@ -79,6 +85,14 @@ pub trait Counter: Send {
 impl<R: Word> Counter for Rows<R> {
     fn count(&mut self, objective: Objective, ranks: &[u16], planes: [usize; 3]) -> Option<usize> {
         self.count(objective, ranks, planes)
+    }
+
+    fn counts(&mut self, ranks: &[u16], planes: [usize; 3]) -> Option<Counts> {
+        self.counts(ranks, planes)
+    }
+
+    fn is_valid(&mut self, ranks: &[u16], planes: [usize; 3]) -> bool {
+        self.is_valid(ranks, planes)
     }
 
     fn words(&self) -> usize {
@@ -145,6 +159,21 @@ impl<R: Word> Rows<R> {
         self.grow_sheets();
         let faces = if objective == Objective::Blocks { 0 } else { self.surface_faces() };
         Some(self.blocks() + faces)
+    }
+
+    /// All three numbers at once, see [`count`](Self::count).
+    pub fn counts(&mut self, ranks: &[u16], planes: [usize; 3]) -> Option<Counts> {
+        if !self.place(ranks, planes) {
+            return None;
+        }
+        self.grow_sheets();
+        let blocks = self.blocks();
+        Some(Counts { surface_patches: self.patches(), blocks, blocks_padded: blocks + self.surface_faces() })
+    }
+
+    /// Whether that is a valid polycube, see [`count`](Self::count).
+    pub fn is_valid(&mut self, ranks: &[u16], planes: [usize; 3]) -> bool {
+        self.place(ranks, planes)
     }
 
     /// Lays the facets out; whether they are a valid polycube.

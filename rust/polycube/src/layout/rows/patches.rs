@@ -69,6 +69,9 @@ impl<R: Word> Rows<R> {
     /// Carries marks over the vertices of a row: straight on, and over a polycube edge to the flat edge on its other side.
     fn pass_on(&self, marked: &mut EdgeBits<R>, flat: &EdgeBits<R>, row: usize, [corner, on_edge]: [R; 2]) {
         let nj = self.size[0];
+        if (marked[0][row] | marked[1][row] | marked[1][row - 1] | marked[2][row] | marked[2][row - nj]).is_zero() {
+            return;
+        }
         marked[0][row] = straight(marked[0][row], flat[0][row], corner | on_edge);
         let meets = [
             marked[0][row] | marked[0][row] << 1,

@@ -58,7 +58,11 @@ fn compare<R: Word>(seed: u64, steps: usize) -> [usize; 2] {
             let expected = exact(structure, &placement, objective);
             assert_eq!(rows.count(objective, &order, planes), expected, "seed {seed}, {objective:?}, {placement:?}");
         }
-        let valid = rows.count(Objective::Blocks, &order, planes).is_some();
+        let counts = rows.counts(&order, planes);
+        let each = OBJECTIVES.map(|o| rows.count(o, &order, planes));
+        assert_eq!(OBJECTIVES.map(|o| counts.map(|c| c.of(o))), each, "seed {seed}");
+        let valid = rows.is_valid(&order, planes);
+        assert_eq!(valid, counts.is_some(), "seed {seed}");
         seen[usize::from(valid)] += 1;
         if valid {
             at = placement;

@@ -51,13 +51,19 @@ primitive!(u64, u128);
 pub struct Wide<const N: usize>([u64; N]);
 
 impl<const N: usize> Wide<N> {
-    fn zip(self, other: Self, operation: impl Fn(u64, u64) -> u64) -> Self {
-        Self(std::array::from_fn(|i| operation(self.0[i], other.0[i])))
+    /// Plain loops, which compilers unroll and inline where closures over arrays are called.
+    #[inline]
+    fn zip(mut self, other: Self, operation: impl Fn(u64, u64) -> u64) -> Self {
+        for (own, its) in self.0.iter_mut().zip(other.0) {
+            *own = operation(*own, its);
+        }
+        self
     }
 }
 
 impl<const N: usize> BitAnd for Wide<N> {
     type Output = Self;
+    #[inline]
     fn bitand(self, other: Self) -> Self {
         self.zip(other, |a, b| a & b)
     }
@@ -65,6 +71,7 @@ impl<const N: usize> BitAnd for Wide<N> {
 
 impl<const N: usize> BitOr for Wide<N> {
     type Output = Self;
+    #[inline]
     fn bitor(self, other: Self) -> Self {
         self.zip(other, |a, b| a | b)
     }
@@ -72,6 +79,7 @@ impl<const N: usize> BitOr for Wide<N> {
 
 impl<const N: usize> BitXor for Wide<N> {
     type Output = Self;
+    #[inline]
     fn bitxor(self, other: Self) -> Self {
         self.zip(other, |a, b| a ^ b)
     }
@@ -79,6 +87,7 @@ impl<const N: usize> BitXor for Wide<N> {
 
 impl<const N: usize> Not for Wide<N> {
     type Output = Self;
+    #[inline]
     fn not(self) -> Self {
         Self(self.0.map(|word| !word))
     }
@@ -86,21 +95,33 @@ impl<const N: usize> Not for Wide<N> {
 
 impl<const N: usize> Shl<usize> for Wide<N> {
     type Output = Self;
+    #[inline]
     fn shl(self, by: usize) -> Self {
         let (words, bits) = (by / 64, by % 64);
-        let at = |i: usize| i.checked_sub(words).map_or(0, |i| self.0[i]);
-        let carried = |i: usize| if bits == 0 { 0 } else { i.checked_sub(1).map_or(0, at) >> (64 - bits) };
-        Self(std::array::from_fn(|i| at(i) << bits | carried(i)))
+        let mut shifted = [0; N];
+        for i in words..N {
+            shifted[i] = self.0[i - words] << bits;
+            if bits > 0 && i > words {
+                shifted[i] |= self.0[i - words - 1] >> (64 - bits);
+            }
+        }
+        Self(shifted)
     }
 }
 
 impl<const N: usize> Shr<usize> for Wide<N> {
     type Output = Self;
+    #[inline]
     fn shr(self, by: usize) -> Self {
         let (words, bits) = (by / 64, by % 64);
-        let at = |i: usize| self.0.get(i + words).copied().unwrap_or(0);
-        let carried = |i: usize| if bits == 0 { 0 } else { at(i + 1) << (64 - bits) };
-        Self(std::array::from_fn(|i| at(i) >> bits | carried(i)))
+        let mut shifted = [0; N];
+        for i in words..N {
+            shifted[i - words] = self.0[i] >> bits;
+            if bits > 0 && i + 1 < N {
+                shifted[i - words] |= self.0[i + 1] << (64 - bits);
+            }
+        }
+        Self(shifted)
     }
 }
 

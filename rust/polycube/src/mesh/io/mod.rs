@@ -70,7 +70,8 @@ pub fn read_bytes(format: Format, bytes: &[u8]) -> Result<Mesh> {
 /// Writes a mesh to a file whose extension tells the format, whole or not at all (see [`write_atomically`]).
 ///
 /// PLY, VTK and VTU hold every field. MEDIT holds one of integers, as reference numbers: `label`, or else
-/// `block_id`. The other formats leave fields out.
+/// `block_id`. The other formats leave fields out. In PLY integers named `red`, `green`, `blue` and `alpha` are the
+/// colours of the faces, one byte each (0 to 255).
 ///
 /// # Errors
 /// As [`write_bytes`], and [`ErrorKind::Io`] when the file cannot be written.

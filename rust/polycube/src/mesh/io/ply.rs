@@ -143,6 +143,7 @@ pub(super) fn write(mesh: &Mesh, fields: &[CellField]) -> Vec<u8> {
     text.put("property list uchar uint vertex_indices").end();
     for field in fields {
         let kind = match field.values {
+            _ if is_colour(field) => "uchar",
             FieldValues::Real(_) => "double",
             FieldValues::Integer(_) => "int",
         };
@@ -158,10 +159,16 @@ pub(super) fn write(mesh: &Mesh, fields: &[CellField]) -> Vec<u8> {
         bytes.extend(corners.iter().flat_map(|v| v.to_le_bytes()));
         for field in fields {
             match &field.values {
+                FieldValues::Integer(v) if is_colour(field) => bytes.push(v[i].clamp(0, 255) as u8),
                 FieldValues::Real(v) => bytes.extend(v[i].to_le_bytes()),
                 FieldValues::Integer(v) => bytes.extend(v[i].to_le_bytes()),
             }
         }
     }
     bytes
+}
+
+/// Whether other programs take the field for a part of the face's colour.
+fn is_colour(field: &CellField) -> bool {
+    matches!(field.values, FieldValues::Integer(_)) && ["red", "green", "blue", "alpha"].contains(&field.name.as_str())
 }

@@ -55,13 +55,18 @@ pub fn neighbours(points: &[[i64; 3]], context: &Context) -> Result<Vec<[u32; 2]
 fn edges(cells: &[[u32; 4]], count: usize) -> Vec<[u32; 2]> {
     const CORNERS: [[usize; 2]; 6] = [[0, 1], [0, 2], [0, 3], [1, 2], [1, 3], [2, 3]];
     let all = cells.iter().flat_map(|c| CORNERS.map(|[i, j]| [c[i].min(c[j]), c[i].max(c[j])]));
-    let (mut seconds, ends) = grouped(all.filter(|&[_, b]| (b as usize) < count), count);
-    let mut edges = Vec::new();
+    let (seconds, ends) = grouped(all.filter(|&[_, b]| (b as usize) < count), count);
+    let mut edges: Vec<[u32; 2]> = Vec::with_capacity(8 * count);
+    let mut last_first = vec![u32::MAX; count];
     let mut start = 0;
-    for (a, &end) in ends.iter().enumerate() {
-        let list = &mut seconds[start..end];
-        list.sort_unstable();
-        edges.extend(list.chunk_by(|x, y| x == y).map(|same| [a as u32, same[0]]));
+    for (a, &end) in (0..).zip(&ends) {
+        let own = edges.len();
+        for &b in &seconds[start..end] {
+            if std::mem::replace(&mut last_first[b as usize], a) != a {
+                edges.push([a, b]);
+            }
+        }
+        edges[own..].sort_unstable();
         start = end;
     }
     edges

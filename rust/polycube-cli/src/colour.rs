@@ -13,6 +13,11 @@ pub fn pastel(id: u32) -> Colour {
     from_hsl(hue, 0.62, lightness)
 }
 
+/// The same in bytes.
+pub fn bytes(colour: Colour) -> [u8; 3] {
+    colour.map(|x| (x * 255.0).round() as u8)
+}
+
 fn from_hsl(hue: f32, saturation: f32, lightness: f32) -> Colour {
     let amplitude = saturation * lightness.min(1.0 - lightness);
     [0.0, 8.0, 4.0].map(|offset: f32| {

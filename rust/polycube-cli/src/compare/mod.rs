@@ -1,0 +1,176 @@
+//! `polycube compare`.
+
+mod csv;
+mod pairs;
+mod rows;
+
+use crate::args::{ToleranceArgs, positive};
+use crate::failure::{FAILURE, Result};
+use crate::mesh_files::read_meshes;
+use crate::output;
+use crate::progress::Progress;
+use crate::remesh::SizeArgs;
+use crate::simplify::StrategyArg;
+use crate::table::Style;
+use crate::terminal;
+use clap::ValueHint;
+use pairs::Pair;
+use polycube::compare::{Comparison, compare};
+use polycube::remesh::RemeshOptions;
+use polycube::simplify::{Input, Options};
+use polycube::{Context, Error, ErrorKind};
+use serde::Serialize;
+use std::path::PathBuf;
+use std::process::ExitCode;
+
+const NOTES: &str = "\
+Every shape is meshed twice: `without` simplification, the levels of its polycube rounded to the lattice (kept in
+their order where rounding breaks the polycube: see the notes), and `with` it, with about as many hexahedra.
+The gain is the part of the padded blocks (with --surface-only: of the patches) that simplifying saves.
+
+What cannot be compared gets a line that says why, and the others go on. Exit code 0: all were compared; 1: some were
+not; 2: wrong usage, or no inputs; 130: cancelled, nothing is written.
+
+List file: a line for each input, a polycube or shape and polycube with a tab between; names are taken from
+the folder of the list. Empty lines and lines that start with # are skipped.";
+
+/// What to compare and how.
+#[derive(clap::Args, Clone, Debug)]
+#[command(after_help = NOTES)]
+pub struct Args {
+    /// Polycubes named NAME.polycube.EXT with their shapes NAME.shape.EXT beside them, or folders of such pairs
+    #[arg(value_name = "POLYCUBE|DIR", value_hint = ValueHint::AnyPath)]
+    inputs: Vec<PathBuf>,
+
+    /// A shape and its polycube, whatever their names; as often as you like
+    #[arg(long, value_names = ["SHAPE", "POLYCUBE"], num_args = 2, action = clap::ArgAction::Append, value_hint = ValueHint::FilePath)]
+    pair: Vec<PathBuf>,
+
+    /// A file that lists polycubes or pairs
+    #[arg(long, value_name = "FILE", value_hint = ValueHint::FilePath)]
+    list: Option<PathBuf>,
+
+    /// How fine the mesh without simplification is.
+    #[command(flatten)]
+    size: SizeArgs,
+
+    /// Layers of hexahedra between the polycube and the surface, 0 to 16
+    #[arg(long, value_name = "N", default_value_t = 1, value_parser = clap::value_parser!(u8).range(0..=16))]
+    padding: u8,
+
+    /// Leave the hexahedra out
+    #[arg(long)]
+    surface_only: bool,
+
+    /// How the simplification finds the places of the levels
+    #[arg(long, value_enum, default_value_t)]
+    strategy: StrategyArg,
+
+    /// The farthest that `best` may move a corner, in units of the polycube [default: a twelfth of its diagonal]
+    #[arg(long, value_name = "D", value_parser = positive)]
+    max_displacement: Option<f64>,
+
+    /// How far the polycubes may be from exact ones.
+    #[command(flatten)]
+    tolerance: ToleranceArgs,
+
+    /// How the comparison is written
+    #[arg(long, value_enum, default_value_t)]
+    format: Format,
+
+    /// File to write it to [default: standard output]
+    #[arg(short, long, value_name = "FILE", value_hint = ValueHint::FilePath)]
+    output: Option<PathBuf>,
+
+    /// Show no progress
+    #[arg(short, long)]
+    quiet: bool,
+}
+
+/// How a comparison is written.
+#[derive(Clone, Copy, Debug, Default, clap::ValueEnum)]
+enum Format {
+    /// For the terminal
+    #[default]
+    Table,
+    /// One line for each mesh, with times per stage
+    Csv,
+    /// Everything
+    Json,
+    /// The table for a document
+    Markdown,
+}
+
+/// What came of one pair.
+#[derive(Debug, Serialize)]
+struct Row {
+    /// The name of its polycube.
+    model: String,
+    shape: String,
+    polycube: String,
+    /// Nothing if it failed.
+    comparison: Option<Comparison>,
+    /// Why it failed.
+    error: Option<Error>,
+}
+
+impl Args {
+    fn options(&self) -> RemeshOptions {
+        let simplify = Options {
+            strategy: self.strategy.0,
+            max_displacement: self.max_displacement,
+            tolerance: self.tolerance.get(),
+            ..Options::default()
+        };
+        let (padding, surface_only) = (usize::from(self.padding), self.surface_only);
+        RemeshOptions { simplify, size: self.size.get(), padding, surface_only, ..RemeshOptions::default() }
+    }
+}
+
+/// Runs the subcommand.
+pub fn run(args: &Args) -> Result<ExitCode> {
+    let pairs = pairs::collect(&args.inputs, &args.pair, args.list.as_deref())?;
+    let progress = Progress::start(args.quiet)?;
+    let rows = rows_of(&pairs, &args.options(), &progress.context)?;
+    let text = match args.format {
+        Format::Table => rows::text(&rows, Style::Terminal, args.surface_only),
+        Format::Markdown => rows::text(&rows, Style::Markdown, args.surface_only),
+        Format::Csv => csv::text(&rows)?,
+        Format::Json => terminal::to_json(&rows)?,
+    };
+    match &args.output {
+        Some(path) => output::write_file(path, text.as_bytes(), &progress.context)?,
+        None => {
+            drop(progress);
+            terminal::print(&text)?;
+        }
+    }
+    let failed: Vec<_> = rows.iter().filter_map(|r| Some((&r.model, r.error.as_ref()?))).collect();
+    for (model, error) in &failed {
+        terminal::print_error(&format!("error: {model}: {error}"));
+    }
+    Ok(if failed.is_empty() { ExitCode::SUCCESS } else { ExitCode::from(FAILURE) })
+}
+
+fn rows_of(pairs: &[Pair], options: &RemeshOptions, context: &Context) -> Result<Vec<Row>> {
+    let mut rows = Vec::with_capacity(pairs.len());
+    for (i, pair) in pairs.iter().enumerate() {
+        let part = |i: usize| i as f64 / pairs.len() as f64;
+        let (comparison, error) = match compared(pair, options, &context.stage("compare", part(i), part(i + 1))) {
+            Ok(comparison) => (Some(comparison), None),
+            Err(error) if error.kind == ErrorKind::Cancelled => return Err(error.into()),
+            Err(error) => (None, Some(error)),
+        };
+        let name = |path: &PathBuf| path.display().to_string();
+        let (model, shape, polycube) = (pair.model(), name(&pair.shape), name(&pair.polycube));
+        rows.push(Row { model, shape, polycube, comparison, error });
+    }
+    Ok(rows)
+}
+
+fn compared(pair: &Pair, options: &RemeshOptions, context: &Context) -> polycube::Result<Comparison> {
+    context.tick(0.0)?;
+    let (polycube, shape) = read_meshes(&pair.polycube, Some(&pair.shape))?;
+    let input = Input { polycube: &polycube, shape: shape.as_ref(), labels: None };
+    compare(&input, options, context)
+}
