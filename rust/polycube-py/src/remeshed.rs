@@ -26,6 +26,7 @@ struct QuadParts {
     label: Vec<i8>,
     patch_id: Vec<u32>,
     block_id: Vec<u32>,
+    scaled_jacobian: Vec<f64>,
     feature_edges: Vec<u32>,
 }
 
@@ -33,8 +34,18 @@ impl From<Quads> for PyQuads {
     fn from(quads: Quads) -> Self {
         let feature_edges = quads.feature_edges().into_flattened();
         let fields = quads.fields();
+        let scaled_jacobian = quads.scaled_jacobian();
         let Quads { mesh, polycube, label, patch_id, block_id, .. } = quads;
-        Self(Arc::new(QuadParts { mesh: mesh.into(), polycube, fields, label, patch_id, block_id, feature_edges }))
+        Self(Arc::new(QuadParts {
+            mesh: mesh.into(),
+            polycube,
+            fields,
+            label,
+            patch_id,
+            block_id,
+            scaled_jacobian,
+            feature_edges,
+        }))
     }
 }
 
@@ -80,6 +91,13 @@ impl PyQuads {
     #[getter]
     fn block_id<'py>(slf: &Bound<'py, Self>) -> PyResult<Bound<'py, PyAny>> {
         vector(slf, |q| &q.0.block_id)
+    }
+
+    /// How near every quadrilateral is to a rectangle: (m,) float64 in -1..1, the sine of its worst corner. 0 or below
+    /// where a corner is flat or reflex.
+    #[getter]
+    fn scaled_jacobian<'py>(slf: &Bound<'py, Self>) -> PyResult<Bound<'py, PyAny>> {
+        vector(slf, |q| &q.0.scaled_jacobian)
     }
 
     /// The mesh edges that lie on edges of the polycube: (e, 2) uint32, the lower vertex first, in ascending order.

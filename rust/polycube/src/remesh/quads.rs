@@ -7,6 +7,7 @@ use super::site::Site;
 use crate::context::Context;
 use crate::error::Result;
 use crate::mesh::{CellField, Cells, Mesh, Point};
+use crate::optimise::quadrilateral_scaled_jacobian;
 
 /// A quadrilateral mesh of the shape's surface. Fields have one value per quadrilateral.
 #[derive(Clone, Debug, PartialEq)]
@@ -28,6 +29,14 @@ pub struct Quads {
 }
 
 impl Quads {
+    /// The [scaled Jacobian](quadrilateral_scaled_jacobian) of every quadrilateral, in −1..1: how near it is to a rectangle.
+    pub fn scaled_jacobian(&self) -> Vec<f64> {
+        match &self.mesh.cells {
+            Cells::Quads(quads) => quads.iter().map(|q| quadrilateral_scaled_jacobian(&self.mesh.points, q)).collect(),
+            _ => Vec::new(),
+        }
+    }
+
     /// The fields `label`, `patch_id` and `block_id` for mesh files.
     pub fn fields(&self) -> Vec<CellField> {
         let numbers = |ids: &[u32]| ids.iter().map(|&i| i as i32).collect();
