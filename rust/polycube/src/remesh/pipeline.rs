@@ -72,7 +72,7 @@ pub struct Remeshed {
 /// The result is the same for any number of threads.
 ///
 /// # Errors
-/// Those of [`simplify()`], [`scale_for`], [`Remesher`] and [`optimise`](crate::optimise::optimise()); [`ErrorKind::Option`] for a bound on the
+/// Those of [`simplify()`], [`scale_for`](super::scale_for()), [`Remesher`] and [`optimise`](crate::optimise::optimise()); [`ErrorKind::Option`] for a bound on the
 /// Hausdorff distance that is not positive; [`ErrorKind::Cancelled`].
 pub fn remesh(input: &Input, options: &RemeshOptions, context: &Context) -> Result<Remeshed> {
     if options.max_hausdorff.is_nan() || options.max_hausdorff <= 0.0 {
