@@ -16,7 +16,7 @@ use std::time::Instant;
 /// How a shape is meshed.
 #[derive(Clone, Debug, PartialEq)]
 pub struct RemeshOptions {
-    /// How the polycube is simplified; [`Strategy::Naive`] meshes it as it is. Of `scale` only [`size`](Self::size) is used
+    /// How the polycube is simplified; [`Strategy::Naive`](crate::align::Strategy::Naive) meshes it as it is. Of `scale` only [`size`](Self::size) is used
     /// where that is given. Unless it bounds the displacement, corners move by a twelfth of the polycube's diagonal at most,
     /// as far as that can be had: fewer blocks than that allows make bad hexahedra.
     pub simplify: simplify::Options,
