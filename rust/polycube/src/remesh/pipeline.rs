@@ -16,7 +16,7 @@ use std::time::Instant;
 /// How a shape is meshed.
 #[derive(Clone, Debug, PartialEq)]
 pub struct RemeshOptions {
-    /// How the polycube is simplified; [`Strategy::Naive`] meshes it as it is. Of `scale` only [`size`](Self::size) is used
+    /// How the polycube is simplified; [`Strategy::Naive`](crate::align::Strategy::Naive) meshes it as it is. Of `scale` only [`size`](Self::size) is used
     /// where that is given. Unless it bounds the displacement, corners move by a twelfth of the polycube's diagonal at most,
     /// as far as that can be had; and unless it says where on the front or how far, they move less where a coarse mesh of the
     /// fewest blocks is poor, and a note says so.
@@ -74,7 +74,7 @@ pub struct Remeshed {
 /// The result is the same for any number of threads.
 ///
 /// # Errors
-/// Those of [`simplify()`], [`scale_for`], [`Remesher`] and [`optimise`](crate::optimise::optimise()); [`ErrorKind::Option`] for a bound on the
+/// Those of [`simplify()`], [`scale_for`](super::scale_for()), [`Remesher`] and [`optimise`](crate::optimise::optimise()); [`ErrorKind::Option`] for a bound on the
 /// Hausdorff distance that is not positive; [`ErrorKind::Cancelled`].
 pub fn remesh(input: &Input, options: &RemeshOptions, context: &Context) -> Result<Remeshed> {
     if options.max_hausdorff.is_nan() || options.max_hausdorff <= 0.0 {
