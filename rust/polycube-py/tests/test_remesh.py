@@ -8,7 +8,7 @@ import polycube
 
 @pytest.fixture(scope="module")
 def meshes(pair) -> polycube.Remeshed:
-    return polycube.remesh(*pair, hexes=1500)
+    return polycube.remesh(*pair, hexes=1500, max_hausdorff=5)
 
 
 def volumes(points: np.ndarray, cells: np.ndarray) -> np.ndarray:
@@ -96,7 +96,7 @@ def test_the_same_bytes_as_the_command(tmp_path, command, pair, meshes):
     files = tmp_path / "shape.mesh", tmp_path / "polycube.mesh"
     for mesh, path in zip(pair, files):
         mesh.write(path)
-    command("remesh", files[0], "--polycube", files[1], "-o", tmp_path / "out", "--hexes", 1500)
+    command("remesh", files[0], "--polycube", files[1], "-o", tmp_path / "out", "--hexes", 1500, "--max-hausdorff", 5)
     meshes.hexes.write(tmp_path / "hexes.vtu")
     meshes.hexes.mesh.write(tmp_path / "hexes.mesh")
     meshes.quads.mesh.write(tmp_path / "quads.obj")

@@ -169,7 +169,7 @@ mod tests {
     fn a_cube_is_one_block_whatever_its_faces() {
         for kind in [CellKind::Triangles, CellKind::Tetrahedra] {
             let mesh = crate::generate::Voxels::from_boxes(&[crate::generate::Cuboid::new([0; 3], [3; 3])])
-                .and_then(|v| v.mesh(kind))
+                .and_then(|v| v.mesh(kind, 1.0))
                 .unwrap();
             let polycube =
                 crate::structure::Polycube::new(&mesh, None, &crate::structure::Tolerance::default()).unwrap();

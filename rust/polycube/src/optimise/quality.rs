@@ -1,4 +1,4 @@
-//! How good hexahedra and tetrahedra are: scaled Jacobians, volumes and their statistics.
+//! How good hexahedra, tetrahedra and quadrilaterals are: scaled Jacobians, volumes and their statistics.
 
 use crate::error::{Error, ErrorKind, Result};
 use crate::mesh::{Cells, Mesh, Point};
@@ -36,27 +36,6 @@ pub fn scaled_jacobian(points: &[Point], hex: &[u32; 8]) -> f64 {
     HEX_CORNERS.iter().map(corner).fold(1.0, f64::min)
 }
 
-/// Verdict's scaled Jacobian of a quadrilateral, in −1..1: the minimum over its four corners of the part of
-/// `a × b / (|a| |b|)` that looks along the normal in the middle, for the edges `a`, `b` that leave the corner.
-///
-/// 1 for rectangles, 0 or below where a corner is flat or reflex; 0 where an edge has no length.
-///
-/// # Panics
-/// When a vertex is not among `points`.
-pub fn quad_scaled_jacobian(points: &[Point], quad: &[u32; 4]) -> f64 {
-    let at = quad.map(|v| points[v as usize]);
-    let middle = ((at[1] - at[0]) + (at[2] - at[3])).cross(&((at[2] - at[1]) + (at[3] - at[0])));
-    let Some(normal) = middle.try_normalize(0.0) else {
-        return 0.0;
-    };
-    let corner = |i: usize| {
-        let (a, b) = (at[(i + 1) % 4] - at[i], at[(i + 3) % 4] - at[i]);
-        let lengths = a.norm() * b.norm();
-        if lengths > 0.0 { a.cross(&b).dot(&normal) / lengths } else { 0.0 }
-    };
-    (0..4).map(corner).fold(1.0, f64::min)
-}
-
 /// Verdict's scaled Jacobian of a tetrahedron, in −1..1: `√2 det / λ`, where `λ` is the largest product
 /// of the three edge lengths at a vertex. 1 for regular tetrahedra, 0 for flat ones.
 ///
@@ -68,6 +47,22 @@ pub fn tetrahedron_scaled_jacobian(points: &[Point], tet: &[u32; 4]) -> f64 {
     let largest = (0..4).map(product).fold(0.0, f64::max);
     let det = edges(points, *tet).determinant();
     if largest > 0.0 { (std::f64::consts::SQRT_2 * det / largest).clamp(-1.0, 1.0) } else { 0.0 }
+}
+
+/// Verdict's scaled Jacobian of a quadrilateral, in −1..1: the minimum over its corners of the sine of their angle, seen
+/// along the normal of its middle. 1 for rectangles, 0 or below where a corner is straight or reflex.
+///
+/// # Panics
+/// When a vertex is not among `points`.
+pub fn quadrilateral_scaled_jacobian(points: &[Point], quad: &[u32; 4]) -> f64 {
+    let at = quad.map(|v| points[v as usize]);
+    let normal = ((at[1] - at[0]) + (at[2] - at[3])).cross(&((at[2] - at[1]) + (at[3] - at[0])));
+    let corner = |i: usize| -> f64 {
+        let (next, last) = (at[(i + 1) % 4] - at[i], at[(i + 3) % 4] - at[i]);
+        let lengths = next.norm() * last.norm() * normal.norm();
+        if lengths > 0.0 { next.cross(&last).dot(&normal) / lengths } else { 0.0 }
+    };
+    (0..4).map(corner).fold(1.0, f64::min)
 }
 
 /// The volume of a hexahedron with bilinear faces (cubed unit of the points), negative if inside out.
@@ -89,6 +84,20 @@ pub fn hexahedron_volume(points: &[Point], hex: &[u32; 8]) -> f64 {
 /// When a vertex is not among `points`.
 pub fn tetrahedron_volume(points: &[Point], tet: &[u32; 4]) -> f64 {
     edges(points, *tet).determinant() / 6.0
+}
+
+/// The scaled Jacobian of every cell, in −1..1. Linear time.
+///
+/// # Errors
+/// [`ErrorKind::Unsupported`] for triangles.
+pub fn scaled_jacobians(mesh: &Mesh) -> Result<Vec<f64>> {
+    let p = &mesh.points;
+    match &mesh.cells {
+        Cells::Quads(c) => Ok(c.iter().map(|c| quadrilateral_scaled_jacobian(p, c)).collect()),
+        Cells::Triangles(_) => Err(Error::new(ErrorKind::Unsupported, "triangles have no scaled Jacobian")
+            .remedy("give a mesh of quadrilaterals, tetrahedra or hexahedra")),
+        _ => Ok(cell_qualities(mesh)?.into_iter().map(|q| q.0).collect()),
+    }
 }
 
 /// The scaled Jacobian and the volume of every cell. Linear time.
@@ -186,18 +195,21 @@ mod tests {
     }
 
     #[test]
-    fn quadrilaterals_have_the_sine_of_their_worst_corner() {
-        let quality = |corners: [[f64; 2]; 4]| {
-            // Turned out of the plane: only the form counts.
-            let points = corners.map(|[x, y]| Point::new(x, 0.6 * y, 0.8 * y));
-            quad_scaled_jacobian(&points, &[0, 1, 2, 3])
+    fn quadrilaterals_have_the_least_sine_of_their_corners() {
+        let flat = |corners: [[f64; 2]; 4]| Mesh {
+            points: corners.iter().map(|p| Point::new(p[0], p[1], 3.0)).collect(),
+            cells: Cells::Quads(vec![[0, 1, 2, 3]]),
         };
-        assert!((quality([[0., 0.], [3., 0.], [3., 1.], [0., 1.]]) - 1.0).abs() < 1e-15);
-        assert!((quality([[0., 0.], [1., 0.], [2., 1.], [1., 1.]]) - 0.5_f64.sqrt()).abs() < 1e-15);
-        // An arrow: its reflex corner counts as negative.
-        assert!((quality([[0., 0.], [1., -1.], [0., 2.], [-1., -1.]]) + 1.0).abs() < 1e-15);
-        assert_eq!(quality([[0., 0.], [0., 0.], [1., 1.], [0., 1.]]), 0.0);
-        assert_eq!(quality([[1., 1.]; 4]), 0.0);
+        let quality = |corners| scaled_jacobians(&flat(corners)).unwrap()[0];
+        assert_eq!(quality([[0., 0.], [4., 0.], [4., 2.], [0., 2.]]), 1.0);
+        // A rhombus with 60 degrees, a dart, a triangle with a vertex on its side.
+        let rhombus = quality([[0., 0.], [2., 0.], [3., 3_f64.sqrt()], [1., 3_f64.sqrt()]]);
+        assert!((rhombus - 0.75_f64.sqrt()).abs() < 1e-15, "{rhombus}");
+        assert!(quality([[0., 0.], [4., 0.], [1., 1.], [0., 4.]]) < -0.5);
+        assert_eq!(quality([[0., 0.], [1., 0.], [2., 0.], [1., 2.]]), 0.0);
+        let triangles = Mesh { cells: Cells::Triangles(vec![[0, 1, 2]]), ..flat([[0.; 2]; 4]) };
+        assert_eq!(scaled_jacobians(&triangles).unwrap_err().kind, ErrorKind::Unsupported);
+        assert_eq!(scaled_jacobians(&cube()).unwrap(), [1.0]);
     }
 
     #[test]

@@ -2,11 +2,12 @@
 
 use super::Remesher;
 use super::embedding::Embedding;
+use super::padding::Padding;
 use super::site::Site;
 use crate::context::Context;
 use crate::error::Result;
 use crate::mesh::{CellField, Cells, Mesh, Point};
-use crate::optimise::quad_scaled_jacobian;
+use crate::optimise::quadrilateral_scaled_jacobian;
 
 /// A quadrilateral mesh of the shape's surface. Fields have one value per quadrilateral.
 #[derive(Clone, Debug, PartialEq)]
@@ -28,10 +29,10 @@ pub struct Quads {
 }
 
 impl Quads {
-    /// The [scaled Jacobian](quad_scaled_jacobian) of every quadrilateral, in −1..1: how near it is to a rectangle.
+    /// The [scaled Jacobian](quadrilateral_scaled_jacobian) of every quadrilateral, in −1..1: how near it is to a rectangle.
     pub fn scaled_jacobian(&self) -> Vec<f64> {
         match &self.mesh.cells {
-            Cells::Quads(quads) => quads.iter().map(|q| quad_scaled_jacobian(&self.mesh.points, q)).collect(),
+            Cells::Quads(quads) => quads.iter().map(|q| quadrilateral_scaled_jacobian(&self.mesh.points, q)).collect(),
             _ => Vec::new(),
         }
     }
@@ -103,6 +104,13 @@ impl Remesher<'_> {
             // The outermost layer comes last.
             _ => points[points.len() - ring.len()..].to_vec(),
         }
+    }
+
+    /// The surface's quadrilaterals over the vertices of [`hexes`](Self::hexes) with this `padding`.
+    pub(super) fn surface_quads(&self, padding: usize) -> Vec<[u32; 4]> {
+        let layers = Padding::new(&self.grid, padding);
+        let outermost = |v| layers.number(&self.grid, v, padding);
+        self.grid.squares.iter().map(|s| s.vertices.map(outermost)).collect()
     }
 
     /// The lattice's vertices with those on the surface put on the shape.
