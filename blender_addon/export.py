@@ -24,7 +24,7 @@ class POLYCUBE_OT_write_hexes(jobs.JobOperator, settings.SearchOptions, settings
     bl_idname = "polycube.write_hexes"
     bl_label = "Write Hex Mesh"
     # Nothing in the scene changes.
-    bl_options = {'REGISTER', 'INTERNAL'}
+    bl_options = {'INTERNAL'}
 
     filepath: StringProperty(name="File", description="Where the file goes", subtype='FILE_PATH', options={'SKIP_SAVE'})
 

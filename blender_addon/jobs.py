@@ -26,6 +26,7 @@ def stop(*_):
     """Cancels the job at work: another file is loaded, or the extension is switched off."""
     if _Running.job is not None:
         _Running.job.cancel()
+        _Running.job = None
 
 
 def status():
