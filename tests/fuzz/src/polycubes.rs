@@ -15,6 +15,7 @@ use polycube::{ErrorKind, Simplified};
 pub fn any_mesh(data: &[u8]) {
     let mut bytes = Unstructured::new(data);
     let Ok((mesh, options)) = any(&mut bytes) else { return };
+    show(&mesh, &options);
     match simplify(&Input { polycube: &mesh, shape: None, labels: None }, &options, &Context::default()) {
         Ok(result) => judge(&mesh, &result),
         Err(error) => assert!(error.kind != ErrorKind::Internal && !error.message.is_empty(), "{error}"),
@@ -26,6 +27,7 @@ pub fn valid_polycube(data: &[u8]) {
     let mut bytes = Unstructured::new(data);
     let Ok(mesh) = polycube(&mut bytes) else { return };
     let Ok(options) = options(&mut bytes) else { return };
+    show(&mesh, &options);
     let guided = !options.guides.is_empty();
     match simplify(&Input { polycube: &mesh, shape: None, labels: None }, &options, &Context::default()) {
         Ok(result) => judge(&mesh, &result),
@@ -41,6 +43,7 @@ pub fn remeshing(data: &[u8]) {
     let mut bytes = Unstructured::new(data);
     let Ok(mesh) = polycube(&mut bytes) else { return };
     let Ok(options) = remesh_options(&mut bytes) else { return };
+    show(&mesh, &options);
     let input = Input { polycube: &mesh, shape: None, labels: None };
     let result = match remesh(&input, &options, &Context::default()) {
         Ok(result) => result,
@@ -57,14 +60,21 @@ pub fn remeshing(data: &[u8]) {
     assert_eq!(result.report.inverted, bad);
 }
 
+/// For a look at a finding: writes the mesh to the VTK file that `POLYCUBE_FUZZ_MESH` names, and prints the options.
+fn show(mesh: &Mesh, options: &impl std::fmt::Debug) {
+    if let Some(path) = std::env::var_os("POLYCUBE_FUZZ_MESH") {
+        let written = polycube::mesh::write(path.as_ref(), mesh, &[]);
+        eprintln!("{written:?} {options:?}");
+    }
+}
+
 /// Any numbers as points and any vertices as cells; often on a lattice, where things touch.
 fn any(bytes: &mut Unstructured) -> Result<(Mesh, Options)> {
     let count = bytes.int_in_range(1..=40)?;
     let wild = bytes.ratio(1, 8)?;
     let points = (0..count).map(|_| {
-        let mut coordinate = || -> Result<f64> {
-            if wild { bytes.arbitrary() } else { Ok(f64::from(bytes.int_in_range(0_u8..=5)?)) }
-        };
+        let mut coordinate =
+            || -> Result<f64> { if wild { bytes.arbitrary() } else { Ok(f64::from(bytes.int_in_range(0_u8..=5)?)) } };
         Ok(Point::new(coordinate()?, coordinate()?, coordinate()?))
     });
     let points = points.collect::<Result<Vec<_>>>()?;
@@ -100,15 +110,20 @@ fn polycube(bytes: &mut Unstructured) -> Result<Mesh> {
     };
     let voxels = voxels.map_err(|_| arbitrary::Error::IncorrectFormat)?;
     let mesh = voxels.mesh(kind, 1e9).map_err(|_| arbitrary::Error::IncorrectFormat)?;
-    let input = |mesh| Input { polycube: mesh, shape: None, labels: None };
     // Boxes that touch along edges are no polycube.
-    let read = read_structure(&input(&mesh), &Tolerance::default()).map_err(|_| arbitrary::Error::IncorrectFormat)?;
-    let labels: Vec<i8> = read.labels().map(|l| l.index() as i8).collect();
+    let labels = labels(&mesh)?;
     let surface = matches!(kind, CellKind::Triangles | CellKind::Quads);
-    match moved.filter(|_| surface) {
-        Some(seed) => perturb(&mesh, &labels, 0.4, seed).map_err(|_| arbitrary::Error::IncorrectFormat),
-        None => Ok(mesh),
-    }
+    let Some(seed) = moved.filter(|_| surface) else { return Ok(mesh) };
+    let moved = perturb(&mesh, &labels, 0.4, seed).map_err(|_| arbitrary::Error::IncorrectFormat)?;
+    // Triangles between vertices that move apart may turn over.
+    self::labels(&moved).map(|_| moved)
+}
+
+/// The labels of a valid polycube.
+fn labels(mesh: &Mesh) -> Result<Vec<i8>> {
+    let read = read_structure(&Input { polycube: mesh, shape: None, labels: None }, &Tolerance::default());
+    let read = read.map_err(|_| arbitrary::Error::IncorrectFormat)?;
+    Ok(read.labels().map(|l| l.index() as i8).collect())
 }
 
 fn boxes(bytes: &mut Unstructured, most: usize) -> Result<Vec<Cuboid>> {
