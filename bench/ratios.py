@@ -125,6 +125,16 @@ def command(table, release, folder):
     table.note(f"    reading and writing both files takes {copies:.1f} ms")
 
 
+def bridge(table, release, folder):
+    """What calling from C++ adds, against a twentieth of what the core takes."""
+    program = release.parent / "cpp" / "bench" / "bench" / "bridge"
+    if not program.is_file():
+        return table.note("the bridge to C++: not built")
+    files = [folder / f"{BUNNY}.{kind}.obj" for kind in ("polycube", "shape")]
+    line = json.loads(subprocess.check_output([program, *files]))
+    table.row("the bridge to C++, bunny", 18_496, 1e3 * line["added"], 1e3 * line["core"] / 20.0)
+
+
 def morph(table, release, folder):
     line = timings(release, "morph", folder / f"{BUNNY}.polycube.mesh")[0]
     table.row("morph of tetrahedra", line["cells"], line["morph"], 2000.0)
@@ -139,6 +149,7 @@ def main():
     else:
         models(table, release, folder)
         command(table, release, folder)
+        bridge(table, release, folder)
         morph(table, release, folder)
     growth(table, release, quick)
     if not quick:

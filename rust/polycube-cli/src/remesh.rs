@@ -173,7 +173,8 @@ pub fn work(args: &Args, context: &Context) -> Result<Remeshed> {
     let about = Failure::in_file(&args.polycube);
     let mut result = remesh(&meshes.input(), &args.options(), &middle).map_err(about)?;
     result.report.simplify.seconds.read = read;
-    write(args, &result, &formats, &context.stage("write", 0.95, 1.0))?;
+    let done = start.elapsed().as_secs_f64();
+    write(args, &mut result, &formats, &context.stage("write", 0.95, 1.0), || start.elapsed().as_secs_f64() - done)?;
     Ok(result)
 }
 
@@ -247,7 +248,13 @@ fn quad_fields(result: &Remeshed, format: Format) -> Vec<CellField> {
     fields
 }
 
-fn write(args: &Args, result: &Remeshed, formats: &Formats, context: &Context) -> Result<()> {
+fn write(
+    args: &Args,
+    result: &mut Remeshed,
+    formats: &Formats,
+    context: &Context,
+    elapsed: impl Fn() -> f64,
+) -> Result<()> {
     let mut output = Output::new(&args.output)?;
     let files = files(result, formats);
     for (i, file) in files.iter().enumerate() {
@@ -259,6 +266,10 @@ fn write(args: &Args, result: &Remeshed, formats: &Formats, context: &Context) -
     output.add(LABELS, labels.as_bytes())?;
     let polycube = format!("polycube.{}", formats.polycube);
     let options = args.options();
+    drop(files);
+    let seconds = &mut result.report.simplify.seconds;
+    seconds.write = elapsed();
+    seconds.total += seconds.read + seconds.write;
     let run = RemeshRun { input: &args.files(), options: (&options).into(), output: &polycube, report: &result.report };
     output.add("report.json", terminal::to_json(&run)?.as_bytes())?;
     let stale = match result.hexes {

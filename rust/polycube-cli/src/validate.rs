@@ -5,9 +5,8 @@ use crate::failure::{INVALID, Result};
 use crate::mesh_files::{read_labels, read_meshes};
 use crate::terminal;
 use clap::ValueHint;
-use polycube::map::flipped;
-use polycube::mesh::{Mesh, Point};
-use polycube::structure::{Polycube, Violation};
+use polycube::simplify::Input;
+use polycube::validate::{Finding, Subject, validate};
 use polycube::{Error, ErrorKind, Place};
 use serde::Serialize;
 use std::path::PathBuf;
@@ -44,19 +43,6 @@ struct Verdict {
     violations: Vec<Finding>,
 }
 
-/// One violation.
-#[derive(Debug, Serialize)]
-struct Finding {
-    rule: &'static str,
-    /// Whether the polycube or the shape is concerned.
-    mesh: &'static str,
-    element: Option<Place>,
-    /// The middle of the element.
-    at: Option<[f64; 3]>,
-    message: String,
-    remedy: String,
-}
-
 /// Checks, prints what was found, and tells by the exit code whether that is nothing.
 pub fn run(args: &Args) -> Result<ExitCode> {
     let violations = check(args)?;
@@ -81,32 +67,8 @@ fn check(args: &Args) -> Result<Vec<Finding>> {
         Some(file) if mesh.cells.boundary().is_ok() => Some(read_labels(file, &args.mesh.polycube, &mesh)?),
         _ => None,
     };
-    let mut findings = check_polycube(args, &mesh, labels.as_deref());
-    if let Some(shape) = &shape {
-        let cells = flipped(shape, &[]).map(|f| f.cells).unwrap_or_default();
-        findings.extend(inverted(&cells).map(|v| Finding::new(v, shape, "shape")));
-    }
-    Ok(findings)
-}
-
-fn check_polycube(args: &Args, mesh: &Mesh, labels: Option<&[i8]>) -> Vec<Finding> {
-    let (mut violations, labels) = match Polycube::new(mesh, labels, &args.mesh.tolerance.get()) {
-        Ok(polycube) => {
-            let labels: Vec<i8> = polycube.labels().map(|l| l.index() as i8).collect();
-            (polycube.overlaps(&mesh.points), labels)
-        }
-        Err(violations) => (violations, Vec::new()),
-    };
-    let flipped = flipped(mesh, &labels).unwrap_or_default();
-    let fresh = inverted(&flipped.cells).filter(|v| !violations.contains(v)).collect::<Vec<_>>();
-    violations.extend(fresh);
-    let mut findings: Vec<_> = violations.into_iter().map(|v| Finding::new(v, mesh, "polycube")).collect();
-    findings.extend(flipped.faces.iter().map(|&face| Finding::flipped_face(face, mesh)));
-    findings
-}
-
-fn inverted(cells: &[u32]) -> impl Iterator<Item = Violation> + '_ {
-    cells.iter().map(|&cell| Violation::InvertedCell { cell })
+    let input = Input { polycube: &mesh, shape: shape.as_ref(), labels: labels.as_deref() };
+    Ok(validate(&input, &args.mesh.tolerance.get()))
 }
 
 /// The finding that an error of reading stands for.
@@ -118,7 +80,7 @@ fn unreadable(error: Error) -> polycube::Result<Finding> {
         (ErrorKind::Mismatch, _) => "mismatch",
         _ => return Err(error),
     };
-    let mesh = if rule == "mismatch" { "shape" } else { "polycube" };
+    let mesh = if rule == "mismatch" { Subject::Shape } else { Subject::Polycube };
     let remedy = match error.remedy.is_empty() {
         true => "export the mesh again".to_owned(),
         false => error.remedy,
@@ -126,47 +88,11 @@ fn unreadable(error: Error) -> polycube::Result<Finding> {
     Ok(Finding { rule, mesh, element: error.place, at: None, message: error.message, remedy })
 }
 
-impl Finding {
-    fn new(violation: Violation, mesh: &Mesh, name: &'static str) -> Self {
-        let rule = violation.rule();
-        let error = Error::from(violation);
-        let at = error.place.and_then(|place| middle(mesh, place));
-        Self { rule, mesh: name, element: error.place, at, message: error.message, remedy: error.remedy }
-    }
-
-    fn flipped_face(face: u32, mesh: &Mesh) -> Self {
-        let place = Place::Face(face);
-        Self {
-            rule: "flipped_face",
-            mesh: "polycube",
-            element: Some(place),
-            at: middle(mesh, place),
-            message: "the face looks away from the side of its label".to_owned(),
-            remedy: "untangle the polycube map, or correct the label".to_owned(),
-        }
-    }
-
-    fn line(&self) -> String {
-        let element = self.element.map(|e| format!("{e}")).unwrap_or_default();
-        let at = self.at.map(|[x, y, z]| format!(" at ({x}, {y}, {z})")).unwrap_or_default();
-        let colon = if element.is_empty() { "" } else { ": " };
-        format!("  {element}{at}{colon}{}\n", self.message)
-    }
-}
-
-/// The middle of an element's vertices.
-fn middle(mesh: &Mesh, place: Place) -> Option<[f64; 3]> {
-    let vertices = match place {
-        Place::Vertex(v) => vec![v],
-        Place::Edge(a, b) => vec![a, b],
-        Place::Face(i) => mesh.cells.boundary().ok()?.get(i as usize)?.vertices().to_vec(),
-        Place::Cell(i) if (i as usize) < mesh.cells.len() => mesh.cells.cell(i as usize).to_vec(),
-        Place::Cell(_) | Place::PolycubeEdge(_) | Place::Facet(_) | Place::Line(_) => return None,
-    };
-    let points: Option<Vec<&Point>> = vertices.iter().map(|&v| mesh.points.get(v as usize)).collect();
-    let points = points?;
-    let mean = |axis: usize| points.iter().map(|p| p[axis]).sum::<f64>() / points.len() as f64;
-    Some([0, 1, 2].map(mean))
+fn line(finding: &Finding) -> String {
+    let element = finding.element.map(|e| format!("{e}")).unwrap_or_default();
+    let at = finding.at.map(|[x, y, z]| format!(" at ({x}, {y}, {z})")).unwrap_or_default();
+    let colon = if element.is_empty() { "" } else { ": " };
+    format!("  {element}{at}{colon}{}\n", finding.message)
 }
 
 impl Verdict {
@@ -177,9 +103,9 @@ impl Verdict {
         let n = self.violations.len();
         let mut text = format!("{}: {n} {}\n", self.file, if n == 1 { "violation" } else { "violations" });
         for group in self.violations.chunk_by(|a, b| (a.rule, a.mesh) == (b.rule, b.mesh)) {
-            let of = if group[0].mesh == "shape" { " (shape)" } else { "" };
+            let of = if group[0].mesh == Subject::Shape { " (shape)" } else { "" };
             text += &format!("\n{}{of}: {}\n  remedy: {}\n", group[0].rule, group.len(), group[0].remedy);
-            group.iter().for_each(|finding| text += &finding.line());
+            group.iter().for_each(|finding| text += &line(finding));
         }
         text
     }

@@ -15,6 +15,7 @@ pub mod optimise;
 pub mod remesh;
 pub mod simplify;
 pub mod structure;
+pub mod validate;
 
 pub use context::Context;
 pub use error::{Error, ErrorKind, Place, Result};

@@ -158,9 +158,12 @@ impl Report {
         }
     }
 
-    /// Lists the flipped elements anew, after `mesh` was untangled.
-    pub(crate) fn rejudge(&mut self, polycube: &Polycube, mesh: &Mesh) -> Result<()> {
+    /// Lists the flipped elements and measures the distortion anew, after `mesh` was changed.
+    pub(crate) fn rejudge(&mut self, input: &Input, polycube: &Polycube, mesh: &Mesh) -> Result<()> {
         self.notes.retain(|note| !note.ends_with(FLIPPED_NOTE));
+        if let Some([_, after]) = &mut self.distortion {
+            *after = distortion(input.shape.unwrap_or(input.polycube), mesh)?;
+        }
         self.list_flipped(polycube, mesh)
     }
 
@@ -187,12 +190,27 @@ pub struct Seconds {
     pub structure: f64,
     /// Pairing, aligning, counting.
     pub align: f64,
-    /// Morphing the mesh and judging it.
+    /// Morphing the mesh and judging it; for a remeshing, making its map one to one, too.
     pub morph: f64,
+    /// Making the meshes of a remeshing.
+    #[serde(skip_serializing_if = "is_none")]
+    pub mesh: f64,
+    /// Optimising its hexahedra.
+    #[serde(skip_serializing_if = "is_none")]
+    pub optimise: f64,
+    /// Measuring them.
+    #[serde(skip_serializing_if = "is_none")]
+    pub measure: f64,
     /// Writing the files.
     pub write: f64,
     /// All of it.
     pub total: f64,
+}
+
+/// Whether no time was spent.
+#[allow(clippy::trivially_copy_pass_by_ref, reason = "serde passes a reference")]
+fn is_none(seconds: &f64) -> bool {
+    *seconds == 0.0
 }
 
 /// Reads the structure of a valid polycube and checks that shape and labels fit it.

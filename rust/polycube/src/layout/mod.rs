@@ -3,12 +3,14 @@
 mod boxes;
 mod complex;
 mod lattice;
+mod pieces;
 mod rows;
 mod separatrices;
 
 pub use boxes::{Block, Patch};
 pub use complex::{Complex, Counts};
 pub use lattice::Lattice;
+pub use pieces::Pieces;
 pub use rows::Rows;
 pub use separatrices::Separatrices;
 

@@ -12,9 +12,10 @@ pub(super) enum Law {
     /// `(1−θ) f + θ g` with `f = tr(Jᵀ J) / χ^(2/3)`, `g = (det² + 1) / χ` and `χ = (det + √(ε² + det²)) / 2`:
     /// finite for inverted elements.
     Regularised { theta: f64, epsilon: f64 },
-    /// The same with `χ = det`, less its least value, infinite unless `det` is positive, and `strength · (floor / quality)^(2^squarings)` added, which
-    /// weighs on the elements near the worst quality `floor`.
-    Barrier { theta: f64, strength: f64, floor: f64, squarings: u32 },
+    /// The same with `χ = det`, infinite unless `det` is positive, and `average / quality` added, which weighs on all elements, and
+    /// `strength · (floor / quality)^(2^squarings)`, which weighs on those near the worst quality `floor`. All less its least
+    /// value, so that gains can be compared with what is left.
+    Barrier { theta: f64, average: f64, strength: f64, floor: f64, squarings: u32 },
 }
 
 impl Law {
@@ -27,7 +28,7 @@ impl Law {
                 let (energy, by_j) = distortion(&j, &cofactors(&j), theta, epsilon);
                 (energy, by_j * inverse.transpose())
             }
-            Self::Barrier { theta, strength, floor, squarings } => {
+            Self::Barrier { theta, average, strength, floor, squarings } => {
                 let cofactors = cofactors(&j);
                 if j.column(0).dot(&cofactors.column(0)) <= f64::MIN_POSITIVE {
                     return (f64::INFINITY, Matrix3::zeros());
@@ -39,7 +40,9 @@ impl Law {
                     Measure::MeanRatio => stretch(&j, inverse),
                 };
                 let (power, growth) = raise(floor * bad, squarings);
-                (energy + strength * power, by_j * inverse.transpose() + slope * (strength * growth * floor))
+                let least = raise(floor, squarings).0;
+                let badness = average * (bad - 1.0) + strength * (power - least);
+                (energy + badness, by_j * inverse.transpose() + slope * (average + strength * growth * floor))
             }
         }
     }
@@ -90,8 +93,8 @@ mod tests {
     const LAWS: [Law; 4] = [
         Law::Regularised { theta: 0.3, epsilon: 0.5 },
         Law::Regularised { theta: 0.0, epsilon: 1.0 },
-        Law::Barrier { theta: 0.1, strength: 2.0, floor: 0.3, squarings: 3 },
-        Law::Barrier { theta: 0.5, strength: 0.0, floor: 0.9, squarings: 0 },
+        Law::Barrier { theta: 0.1, average: 0.7, strength: 2.0, floor: 0.3, squarings: 3 },
+        Law::Barrier { theta: 0.5, average: 0.0, strength: 0.0, floor: 0.9, squarings: 0 },
     ];
 
     proptest! {
@@ -115,10 +118,10 @@ mod tests {
 
     #[test]
     fn right_boxes_and_similar_maps_are_at_rest() {
-        let law = Law::Barrier { theta: 0.5, strength: 1.0, floor: 1.0, squarings: 2 };
+        let law = Law::Barrier { theta: 0.5, average: 1.0, strength: 1.0, floor: 1.0, squarings: 2 };
         for measure in [Measure::ScaledJacobian, Measure::MeanRatio] {
             let (energy, slope) = law.value(measure, &Matrix3::identity(), &Matrix3::identity());
-            assert!((energy - 1.0).abs() < 1e-12 && slope.norm() < 1e-12);
+            assert!(energy.abs() < 1e-12 && slope.norm() < 1e-12);
             assert_eq!(law.value(measure, &-Matrix3::identity(), &Matrix3::identity()).0, f64::INFINITY);
         }
     }

@@ -16,7 +16,7 @@ const BAR: f64 = 0.5;
 /// Largest exponent, as a power of two.
 const SQUARINGS: u32 = 6;
 /// Weight of the average against the worst quality.
-const AVERAGE: f64 = 0.05;
+const AVERAGE: f64 = 0.5;
 
 /// How good a state is.
 fn score(census: &Census) -> f64 {
@@ -47,23 +47,27 @@ pub(super) fn improve(
 }
 
 /// The law of a round, for the worst quality 1: exponents double evenly over the rounds.
-fn law(settings: &Settings, round: usize) -> (f64, f64, u32) {
+fn law(settings: &Settings, round: usize) -> Law {
     let span = settings.improve_rounds.saturating_sub(1).max(1);
     let squarings = 1 + ((SQUARINGS - 1) as usize * round).div_ceil(span) as u32;
-    (settings.theta, settings.strength, squarings)
+    let Settings { theta, average, strength, .. } = *settings;
+    Law::Barrier { theta, average, strength, floor: 1.0, squarings }
 }
 
 /// One round from `points`.
 fn step(
     problem: &mut Problem,
     points: &mut Vec<Point>,
-    (theta, strength, squarings): (f64, f64, u32),
+    mut law: Law,
     limits: Limits,
     context: &Context,
 ) -> Result<Census> {
     let before = points.clone();
-    let floor = problem.assembly.census(points).worst;
-    problem.descend(points, &Law::Barrier { theta, strength, floor, squarings }, limits, context)?;
-    problem.settle(&before, points, BAR * floor, context)?;
+    let worst = problem.assembly.census(points).worst;
+    if let Law::Barrier { floor, .. } = &mut law {
+        *floor = worst;
+    }
+    problem.descend(points, &law, limits, context)?;
+    problem.settle(&before, points, BAR * worst, context)?;
     Ok(problem.assembly.census(points))
 }

@@ -19,6 +19,7 @@ mod freedom;
 mod guide;
 mod improve;
 mod lbfgs;
+mod nearest;
 mod polish;
 mod problem;
 mod quality;
@@ -29,9 +30,10 @@ mod untangle;
 pub use elements::{Elements, Measure};
 pub use freedom::Freedom;
 pub use guide::{Contact, CurveGuide, Guide, SurfaceGuide, Tangent};
+pub(crate) use nearest::{Foot, Nearest};
 pub use quality::{
-    BARS, Statistics, cell_qualities, hexahedron_volume, scaled_jacobian, statistics, tetrahedron_scaled_jacobian,
-    tetrahedron_volume,
+    BARS, Statistics, cell_qualities, hexahedron_volume, quadrilateral_scaled_jacobian, scaled_jacobian,
+    scaled_jacobians, statistics, tetrahedron_scaled_jacobian, tetrahedron_volume,
 };
 
 use crate::context::Context;
@@ -51,8 +53,10 @@ pub struct Settings {
     pub untangle_iterations: usize,
     /// Rounds of improvement, with exponents growing from 2 to 64; 0 to leave the mesh untangled only; 6 by default.
     pub improve_rounds: usize,
-    /// Most iterations of a round of improvement; 20 by default.
+    /// Most iterations of a round of improvement; 30 by default.
     pub improve_iterations: usize,
+    /// Weight of the badness of all elements against their shapes, at least 0; 4 by default.
+    pub average: f64,
     /// Weight of the badness of the worst elements against all others' shapes, at least 0; 10 by default.
     pub strength: f64,
     /// Most rounds of polishing; 10 by default.
@@ -66,7 +70,8 @@ impl Default for Settings {
             untangle_rounds: 60,
             untangle_iterations: 100,
             improve_rounds: 6,
-            improve_iterations: 20,
+            improve_iterations: 30,
+            average: 4.0,
             strength: 10.0,
             polish_rounds: 10,
         }
@@ -162,10 +167,11 @@ fn check(points: &[Point], elements: &Elements, freedom: &[Freedom], settings: &
         let message = format!("{} freedoms for {} points", freedom.len(), points.len());
         return Err(Error::new(ErrorKind::Mismatch, message).remedy("give one freedom per point"));
     }
-    let strength = 0.0..f64::INFINITY;
-    if !((0.0..1.0).contains(&settings.theta) && strength.contains(&settings.strength)) {
-        let message = format!("theta {} or strength {} is out of range", settings.theta, settings.strength);
-        return Err(Error::new(ErrorKind::Option, message).remedy("use 0 <= theta < 1 and strength >= 0"));
+    let weights = 0.0..f64::INFINITY;
+    let Settings { theta, average, strength, .. } = *settings;
+    if !((0.0..1.0).contains(&theta) && weights.contains(&average) && weights.contains(&strength)) {
+        let message = format!("theta {theta}, average {average} or strength {strength} is out of range");
+        return Err(Error::new(ErrorKind::Option, message).remedy("use 0 <= theta < 1, average >= 0 and strength >= 0"));
     }
     if let Some(v) = points.iter().position(|p| p.coords.iter().any(|x| !x.is_finite())) {
         return Err(Error::new(ErrorKind::Mesh, "a coordinate is not finite").at(Place::Vertex(v as u32)));

@@ -1,4 +1,4 @@
-//! How good hexahedra and tetrahedra are: scaled Jacobians, volumes and their statistics.
+//! How good hexahedra, tetrahedra and quadrilaterals are: scaled Jacobians, volumes and their statistics.
 
 use crate::error::{Error, ErrorKind, Result};
 use crate::mesh::{Cells, Mesh, Point};
@@ -49,6 +49,22 @@ pub fn tetrahedron_scaled_jacobian(points: &[Point], tet: &[u32; 4]) -> f64 {
     if largest > 0.0 { (std::f64::consts::SQRT_2 * det / largest).clamp(-1.0, 1.0) } else { 0.0 }
 }
 
+/// Verdict's scaled Jacobian of a quadrilateral, in −1..1: the minimum over its corners of the sine of their angle, seen
+/// along the normal of its middle. 1 for rectangles, 0 or below where a corner is straight or reflex.
+///
+/// # Panics
+/// When a vertex is not among `points`.
+pub fn quadrilateral_scaled_jacobian(points: &[Point], quad: &[u32; 4]) -> f64 {
+    let at = quad.map(|v| points[v as usize]);
+    let normal = ((at[1] - at[0]) + (at[2] - at[3])).cross(&((at[2] - at[1]) + (at[3] - at[0])));
+    let corner = |i: usize| -> f64 {
+        let (next, last) = (at[(i + 1) % 4] - at[i], at[(i + 3) % 4] - at[i]);
+        let lengths = next.norm() * last.norm() * normal.norm();
+        if lengths > 0.0 { next.cross(&last).dot(&normal) / lengths } else { 0.0 }
+    };
+    (0..4).map(corner).fold(1.0, f64::min)
+}
+
 /// The volume of a hexahedron with bilinear faces (cubed unit of the points), negative if inside out.
 ///
 /// # Panics
@@ -68,6 +84,20 @@ pub fn hexahedron_volume(points: &[Point], hex: &[u32; 8]) -> f64 {
 /// When a vertex is not among `points`.
 pub fn tetrahedron_volume(points: &[Point], tet: &[u32; 4]) -> f64 {
     edges(points, *tet).determinant() / 6.0
+}
+
+/// The scaled Jacobian of every cell, in −1..1. Linear time.
+///
+/// # Errors
+/// [`ErrorKind::Unsupported`] for triangles.
+pub fn scaled_jacobians(mesh: &Mesh) -> Result<Vec<f64>> {
+    let p = &mesh.points;
+    match &mesh.cells {
+        Cells::Quads(c) => Ok(c.iter().map(|c| quadrilateral_scaled_jacobian(p, c)).collect()),
+        Cells::Triangles(_) => Err(Error::new(ErrorKind::Unsupported, "triangles have no scaled Jacobian")
+            .remedy("give a mesh of quadrilaterals, tetrahedra or hexahedra")),
+        _ => Ok(cell_qualities(mesh)?.into_iter().map(|q| q.0).collect()),
+    }
 }
 
 /// The scaled Jacobian and the volume of every cell. Linear time.
@@ -162,6 +192,24 @@ mod tests {
         }
         let [(quality, volume)] = cell_qualities(&mesh).unwrap()[..] else { panic!() };
         assert!((quality - 0.5_f64.sqrt()).abs() < 1e-15 && (volume - 1.0).abs() < 1e-15);
+    }
+
+    #[test]
+    fn quadrilaterals_have_the_least_sine_of_their_corners() {
+        let flat = |corners: [[f64; 2]; 4]| Mesh {
+            points: corners.iter().map(|p| Point::new(p[0], p[1], 3.0)).collect(),
+            cells: Cells::Quads(vec![[0, 1, 2, 3]]),
+        };
+        let quality = |corners| scaled_jacobians(&flat(corners)).unwrap()[0];
+        assert_eq!(quality([[0., 0.], [4., 0.], [4., 2.], [0., 2.]]), 1.0);
+        // A rhombus with 60 degrees, a dart, a triangle with a vertex on its side.
+        let rhombus = quality([[0., 0.], [2., 0.], [3., 3_f64.sqrt()], [1., 3_f64.sqrt()]]);
+        assert!((rhombus - 0.75_f64.sqrt()).abs() < 1e-15, "{rhombus}");
+        assert!(quality([[0., 0.], [4., 0.], [1., 1.], [0., 4.]]) < -0.5);
+        assert_eq!(quality([[0., 0.], [1., 0.], [2., 0.], [1., 2.]]), 0.0);
+        let triangles = Mesh { cells: Cells::Triangles(vec![[0, 1, 2]]), ..flat([[0.; 2]; 4]) };
+        assert_eq!(scaled_jacobians(&triangles).unwrap_err().kind, ErrorKind::Unsupported);
+        assert_eq!(scaled_jacobians(&cube()).unwrap(), [1.0]);
     }
 
     #[test]

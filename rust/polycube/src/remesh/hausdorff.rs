@@ -1,9 +1,9 @@
 //! How far a mesh is from the shape it stands for.
 
-use super::closest::Closest;
 use crate::context::Context;
 use crate::error::{Error, ErrorKind, Result};
 use crate::mesh::{Face, Mesh, Point, split_quad};
+use crate::optimise::Nearest;
 
 /// Sides of the grid of samples on a quadrilateral.
 const SAMPLES: usize = 4;
@@ -32,7 +32,7 @@ fn farthest(from: &Mesh, to: &Mesh, context: &Context) -> Result<f64> {
     if faces.is_empty() || target.is_empty() {
         return Err(Error::new(ErrorKind::Mesh, "a mesh without cells has no surface"));
     }
-    let index = Closest::new(target.iter().flat_map(|f| triangles(to, f)));
+    let index = Nearest::new(target.iter().flat_map(|f| triangles(to, f)));
     let at_vertices = vertex_distances(from, &faces, &index, &context.stage("hausdorff", 0.0, 0.3))?;
     let context = context.stage("hausdorff", 0.3, 1.0);
     let mut worst = at_vertices.iter().copied().fold(0.0_f64, f64::max);
@@ -49,7 +49,7 @@ fn farthest(from: &Mesh, to: &Mesh, context: &Context) -> Result<f64> {
 }
 
 /// The distance of every vertex of `faces` from the index; 0 for vertices off the surface.
-fn vertex_distances(mesh: &Mesh, faces: &[Face], index: &Closest, context: &Context) -> Result<Vec<f64>> {
+fn vertex_distances(mesh: &Mesh, faces: &[Face], index: &Nearest<3>, context: &Context) -> Result<Vec<f64>> {
     let mut used = vec![false; mesh.points.len()];
     faces.iter().flat_map(Face::vertices).for_each(|&v| used[v as usize] = true);
     let mut distances = vec![0.0; used.len()];

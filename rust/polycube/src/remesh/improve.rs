@@ -10,22 +10,24 @@ use crate::mesh::Point;
 use crate::optimise::{Elements, Freedom, Guide, Settings, optimise, scaled_jacobian};
 use crate::simplify::Simplified;
 
-/// Most passes of the optimiser over a mesh: a bad start spoils the first.
+/// Most passes of the optimiser over a mesh: each asks for boxes of the sizes that the one before led to.
 const PASSES: usize = 4;
-/// A mesh whose worst scaled Jacobian is above this needs no further pass.
-const GOOD: f64 = 0.5;
-/// Nor does one that gained less.
-const LEAST_GAIN: f64 = 0.02;
+/// A pass that raised worst and average quality by less in sum is the last.
+const LEAST_GAIN: f64 = 0.015;
+/// How often the sizes that hexahedra should have are averaged with those around.
+const SMOOTHING: usize = 3;
 /// Most rounds of untangling after the vertices in the way were released.
 const LATE_ROUNDS: usize = 15;
 /// How often vertices of inverted hexahedra are released.
 const RELEASES: usize = 4;
+/// Hexahedra of a lower scaled Jacobian may have vertices released where the shape is smooth.
+const POOR: f64 = 0.6;
 
 /// Moves the vertices of a mesh until no hexahedron is inverted and the worst is as good as can be had.
 ///
 /// Inverted ones are first untangled with the surface held, then with the edges held, so that surface vertices do not
-/// slide past each other, from where there is no way back. If some remain, their vertices may leave corners and edges for
-/// the surface around; returns how many did.
+/// slide past each other, from where there is no way back. Vertices of inverted hexahedra may leave corners and edges for
+/// the surface around, and so may those of poor ones where the shape has no crease; returns how many did.
 pub(super) fn improve(
     map: &Simplified,
     hexes: &mut Hexes,
@@ -34,34 +36,12 @@ pub(super) fn improve(
     context: &Context,
 ) -> Result<usize> {
     let slides = Slides::new(&map.input, shape)?;
-    let elements = Elements::boxes_like(cells_of(hexes), &hexes.mesh.points, 3)?;
-    let mut job = Job { elements, guides: slides.guides(), slides: &slides, hexes };
-    let first = Settings {
-        untangle_rounds: 8,
-        untangle_iterations: 50,
-        improve_rounds: 0,
-        polish_rounds: 0,
-        ..settings.clone()
-    };
-    for (hold, part) in [(Hold::Surface, 0.0), (Hold::Edges, 0.15)] {
-        let freedom = slides.freedoms(&job.hexes.sites, hold);
-        if job.run(&freedom, &first, &context.stage("untangle", part, part + 0.15))? == 0 {
-            break;
-        }
-    }
-    let mut freedom = slides.freedoms(&job.hexes.sites, Hold::Corners);
-    let mut released = 0;
-    let short = Settings { untangle_rounds: 12, ..first };
-    for round in 0..RELEASES {
-        if job.run(&freedom, &short, &context.stage("untangle", 0.3, 0.3 + 0.1 * round as f64 / RELEASES as f64))? == 0
-        {
-            break;
-        }
-        released += job.release(&mut freedom);
-    }
-    let settings = Settings { untangle_rounds: settings.untangle_rounds.min(LATE_ROUNDS), ..settings.clone() };
-    job.passes(&freedom, &settings, &context.stage("optimise", 0.4, 1.0))?;
-    Ok(released)
+    let elements = Elements::boxes_like(cells_of(hexes), &hexes.mesh.points, SMOOTHING)?;
+    let freedom = slides.freedoms(&hexes.sites, Hold::Corners);
+    let mut job = Job { elements, guides: slides.guides(), slides: &slides, hexes, freedom, released: 0 };
+    job.untangle(settings, &context.stage("untangle", 0.0, 0.4))?;
+    job.passes(settings, &context.stage("optimise", 0.4, 1.0))?;
+    Ok(job.released)
 }
 
 /// A mesh on the way to be improved.
@@ -70,41 +50,89 @@ struct Job<'a> {
     guides: Vec<&'a dyn Guide>,
     slides: &'a Slides,
     hexes: &'a mut Hexes,
+    freedom: Vec<Freedom>,
+    released: usize,
 }
 
 impl Job<'_> {
+    /// Untangling alone, with more and more vertices that may move, until no hexahedron is inverted.
+    fn untangle(&mut self, settings: &Settings, context: &Context) -> Result<()> {
+        let first = Settings {
+            untangle_rounds: 8,
+            untangle_iterations: 50,
+            improve_rounds: 0,
+            polish_rounds: 0,
+            ..settings.clone()
+        };
+        self.project();
+        for (hold, part) in [(Hold::Surface, 0.0), (Hold::Edges, 0.3)] {
+            let freedom = self.slides.freedoms(&self.hexes.sites, hold);
+            if self.run(&freedom, &first, &context.stage("untangle", part, part + 0.3))? == 0 {
+                return Ok(());
+            }
+        }
+        let short = Settings { untangle_rounds: 12, ..first };
+        for round in 0..RELEASES {
+            let part = 0.6 + 0.4 * round as f64 / RELEASES as f64;
+            if self.run(&self.freedom.clone(), &short, &context.stage("untangle", part, part + 0.1))? == 0 {
+                break;
+            }
+            self.release(0.0, |_, _, _| true);
+        }
+        Ok(())
+    }
+
+    /// Puts every surface vertex on what it slides on.
+    fn project(&mut self) {
+        for (point, freedom) in self.hexes.mesh.points.iter_mut().zip(&self.freedom) {
+            if let Freedom::Guided(g) = freedom {
+                *point = self.guides[*g as usize].contact(point).point;
+            }
+        }
+    }
+
     /// One optimisation; how many hexahedra are inverted after it.
     fn run(&mut self, freedom: &[Freedom], settings: &Settings, context: &Context) -> Result<usize> {
         let points = &mut self.hexes.mesh.points;
         Ok(optimise(points, &self.elements, freedom, &self.guides, settings, context)?.inverted_after)
     }
 
-    /// Lets the vertices of inverted hexahedra slide on all of the surface; how many could not before.
-    fn release(&self, freedom: &mut [Freedom]) -> usize {
+    /// Lets vertices of hexahedra whose scaled Jacobian is `bar` or less slide on all of the surface, where `may` agrees.
+    fn release(&mut self, bar: f64, may: impl Fn(&Slides, Site, &Point) -> bool) {
         let Hexes { mesh, sites, .. } = &*self.hexes;
-        let bad = cells_of(self.hexes).iter().filter(|c| scaled_jacobian(&mesh.points, c) <= 0.0);
-        let mut count = 0;
-        for &v in bad.flatten() {
-            let bound = matches!(sites[v as usize], Site::Corner(_) | Site::Edge(_));
-            if bound && freedom[v as usize] != self.slides.released() {
-                freedom[v as usize] = self.slides.released();
-                count += 1;
+        let bad = cells_of(self.hexes).iter().filter(|c| scaled_jacobian(&mesh.points, c) <= bar);
+        for v in bad.flatten().map(|&v| v as usize) {
+            let bound = matches!(sites[v], Site::Corner(_) | Site::Edge(_));
+            let free = self.freedom[v] == self.slides.released();
+            if bound && !free && may(self.slides, sites[v], &mesh.points[v]) {
+                self.freedom[v] = self.slides.released();
+                self.released += 1;
             }
         }
-        count
     }
 
     /// Passes of the optimiser, until one gains little.
-    fn passes(&mut self, freedom: &[Freedom], settings: &Settings, context: &Context) -> Result<()> {
+    fn passes(&mut self, settings: &Settings, context: &Context) -> Result<()> {
+        let settings = Settings { untangle_rounds: settings.untangle_rounds.min(LATE_ROUNDS), ..settings.clone() };
         for pass in 0..PASSES {
             let [from, to] = [pass, pass + 1].map(|p| p as f64 / PASSES as f64);
-            let context = context.stage("optimise", from, to);
+            self.resize()?;
+            let before = self.released;
+            self.release(POOR, Slides::is_smooth);
             let points = &mut self.hexes.mesh.points;
-            let done = optimise(points, &self.elements, freedom, &self.guides, settings, &context)?;
-            if done.worst_after > GOOD || done.worst_after - done.worst_before < LEAST_GAIN {
+            let context = context.stage("optimise", from, to);
+            let done = optimise(points, &self.elements, &self.freedom, &self.guides, &settings, &context)?;
+            let gain = done.worst_after - done.worst_before + done.average_after - done.average_before;
+            if gain < LEAST_GAIN && self.released == before {
                 break;
             }
         }
+        Ok(())
+    }
+
+    /// Asks for boxes of the sizes that the hexahedra have by now.
+    fn resize(&mut self) -> Result<()> {
+        self.elements = Elements::boxes_like(cells_of(self.hexes), &self.hexes.mesh.points, SMOOTHING)?;
         Ok(())
     }
 }

@@ -7,8 +7,10 @@
 
 mod barycentric;
 mod base_complex;
-mod closest;
+mod choose;
+mod climb;
 mod embedding;
+mod fit;
 mod grid;
 mod hausdorff;
 mod hexes;
@@ -25,9 +27,11 @@ mod report;
 mod site;
 mod size;
 mod slide;
+mod spacing;
 mod surface_map;
 mod untangle;
 mod volume_map;
+mod warp;
 
 #[cfg(test)]
 mod tests;

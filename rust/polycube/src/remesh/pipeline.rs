@@ -1,12 +1,11 @@
 //! The whole way from a polycube and its shape to a block structure, quadrilaterals and hexahedra.
 
-use super::improve::improve;
-use super::refine::Refined;
-use super::report::diagonal;
-use super::report::{RemeshReport, Stages, cells_of, measure};
+use super::choose::{Start, choose};
+use super::climb::{Rung, finish};
+use super::fit::fit;
+use super::report::{RemeshReport, Stages, cells_of, diagonal, measure};
 
-use super::{Hexes, Layout, Quads, Remesher, Size, scale_for, untangle};
-use crate::align::Strategy;
+use super::{Hexes, Layout, Quads, Remesher, Size, untangle};
 use crate::context::Context;
 use crate::error::{Error, ErrorKind, Result};
 use crate::mesh::Mesh;
@@ -81,17 +80,38 @@ pub fn remesh(input: &Input, options: &RemeshOptions, context: &Context) -> Resu
         return Err(Error::new(ErrorKind::Option, message).remedy("give a positive number"));
     }
     let start = Instant::now();
-    let mut simplified = sized(input, options, &context.stage("simplify", 0.0, 0.3))?;
-    let mut stages = Stages { simplify: start.elapsed().as_secs_f64(), ..Stages::default() };
+    let seconds = || start.elapsed().as_secs_f64();
+    let found = simplify(input, &simplifying(input, options), &context.stage("simplify", 0.0, 0.2))?;
+    let mut stages = Stages { simplify: seconds(), ..Stages::default() };
+    let spent = found.report.seconds;
+    let Start { mut simplified, map, shape: fine, rung } =
+        choose(input, found, options, &context.stage("map", 0.2, 0.5))?;
+    stages.map = seconds() - stages.simplify;
+    simplified.report.seconds = spent;
     let shape = input.shape.unwrap_or(input.polycube);
-    let (map, fine) = improve_map(&mut simplified, shape, &context.stage("map", 0.3, 0.4))?;
-    stages.map = start.elapsed().as_secs_f64() - stages.simplify;
-    let meshed = mesh(&map, &fine, options, &mut stages, &context.stage("mesh", 0.4, 0.9))?;
-    let report = measure(&map, &meshed, shape, options, stages, &context.stage("measure", 0.9, 1.0))?;
+    let meshed = mesh(&map, &fine, rung, options, &mut stages, &context.stage("mesh", 0.5, 0.9))?;
+    untangle(&mut simplified, input, &context.stage("map", 0.9, 0.95))?;
+    let report = measure(&simplified, &meshed, shape, options, stages, &context.stage("measure", 0.95, 1.0))?;
     let Meshed { layout, quads, hexes, scaled_jacobian, .. } = meshed;
     let mut result = Remeshed { simplified, layout, quads, hexes, scaled_jacobian, report };
-    result.report.seconds.total = start.elapsed().as_secs_f64();
+    result.report.set_seconds(seconds());
     Ok(result)
+}
+
+/// How the polycube is simplified: corners stay near unless the options say otherwise.
+fn simplifying(input: &Input, options: &RemeshOptions) -> simplify::Options {
+    let near = diagonal(input.polycube) / 12.0;
+    simplify::Options { max_displacement: options.simplify.max_displacement.or(Some(near)), ..options.simplify.clone() }
+}
+
+/// Turns flipped tetrahedra of the polycube the right way round, as far as that goes.
+fn untangle(simplified: &mut Simplified, input: &Input, context: &Context) -> Result<()> {
+    let shape = input.shape.unwrap_or(input.polycube);
+    let Simplified { input: polycube, polycube: Some(mesh), report, .. } = simplified else { return Ok(()) };
+    if mesh.cells.is_volume() && !report.flipped.cells.is_empty() {
+        untangle::volume(polycube, mesh, &shape.points, context)?;
+    }
+    report.rejudge(input, polycube, mesh)
 }
 
 /// The meshes before they are judged.
@@ -104,84 +124,10 @@ pub(super) struct Meshed {
     pub(super) released: usize,
 }
 
-/// The simplified polycube at the wanted size.
-fn sized(input: &Input, options: &RemeshOptions, context: &Context) -> Result<Simplified> {
-    let near = diagonal(input.polycube) / 12.0;
-    let simplifying = simplify::Options {
-        max_displacement: options.simplify.max_displacement.or(Some(near)),
-        ..options.simplify.clone()
-    };
-    let found = simplify(input, &simplifying, &context.stage("simplify", 0.0, 0.6))?;
-    let scale = match options.size {
-        Some(size) => scale_for(input, &found, size, options.padding, &context.stage("scale", 0.6, 0.7))?,
-        None if found.report.valid => return Ok(found),
-        None => found.report.scale,
-    };
-    let fitted = found.rescaled(input, scale, &context.stage("scale", 0.7, 0.9))?;
-    if fitted.report.valid {
-        return Ok(fitted);
-    }
-    in_order(input, found, options, scale, &context.stage("scale", 0.9, 1.0))
-}
-
-/// The levels of the input in their own order, where plain rounding broke the polycube.
-fn in_order(
-    input: &Input,
-    mut found: Simplified,
-    options: &RemeshOptions,
-    scale: f64,
-    context: &Context,
-) -> Result<Simplified> {
-    found.levels = ranks(&found);
-    found.report.strategy = Strategy::Paper;
-    let scale = match options.size {
-        Some(size) => scale_for(input, &found, size, options.padding, context)?,
-        None => scale,
-    };
-    let mut result = found.rescaled(input, scale, context)?;
-    result.report.strategy = options.simplify.strategy;
-    let note = "rounding to the lattice broke the polycube, so the levels were placed in the order they have";
-    result.report.notes.push(note.to_owned());
-    Ok(result)
-}
-
-/// The number of every level among those of its axis.
-fn ranks(found: &Simplified) -> Vec<i64> {
-    let placement = &found.input.placement;
-    let levels = &found.input.structure.levels;
-    let rank = |l: usize| {
-        let own = (0..levels.len()).filter(|&k| levels[k].axis == levels[l].axis).map(|k| placement[k]);
-        let mut below: Vec<f64> = own.filter(|x| *x < placement[l]).collect();
-        below.sort_by(f64::total_cmp);
-        below.dedup();
-        below.len() as i64
-    };
-    (0..levels.len()).map(rank).collect()
-}
-
-/// Untangles the map. What is returned has a better map of the surface, refined for meshing, and the shape to go with it.
-fn improve_map(simplified: &mut Simplified, shape: &Mesh, context: &Context) -> Result<(Simplified, Mesh)> {
-    let Simplified { input, polycube: Some(mesh), report, .. } = simplified else {
-        return Ok((simplified.clone(), shape.clone()));
-    };
-    if !report.flipped.cells.is_empty() {
-        untangle::volume(input, mesh, &shape.points, &context.stage("map", 0.0, 0.5))?;
-    }
-    let mut refined = Refined::new(input, &mesh.points, &shape.points)?;
-    untangle::surface(&mut refined, &context.stage("map", 0.5, 1.0))?;
-    if !mesh.cells.is_volume() {
-        mesh.points.iter_mut().zip(&refined.points).for_each(|(to, from)| *to = *from);
-    }
-    report.rejudge(input, mesh)?;
-    let [polycube, shape] = refined.meshes();
-    let mut map = simplified.clone();
-    (map.input, map.polycube) = (refined.polycube, Some(polycube));
-    Ok((map, shape))
-}
-
 fn mesh(
     map: &Simplified,
     shape: &Mesh,
+    rung: Option<Rung>,
     options: &RemeshOptions,
     stages: &mut Stages,
     context: &Context,
@@ -197,7 +143,10 @@ fn mesh(
     }
     let mut hexes = remesher.hexes(options.padding, &context.stage("mesh", 0.1, 0.2))?;
     stages.mesh = start.elapsed().as_secs_f64();
-    let released = improve(map, &mut hexes, &shape.points, &options.optimise, &context.stage("optimise", 0.2, 1.0))?;
+    let released = finish(rung, &remesher, &mut hexes, options, &context.stage("optimise", 0.2, 0.9))?;
+    let quadrilaterals = remesher.surface_quads(options.padding);
+    let bound = options.max_hausdorff * diagonal(shape);
+    fit(&mut hexes, &quadrilaterals, shape, bound, &context.stage("fit", 0.9, 1.0))?;
     stages.optimise = start.elapsed().as_secs_f64() - stages.mesh;
     quads.mesh.points = remesher.surface_of(&hexes.mesh.points, options.padding);
     let layout = remesher.layout(&hexes.mesh.points, options.padding)?;

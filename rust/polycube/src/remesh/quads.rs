@@ -2,10 +2,12 @@
 
 use super::Remesher;
 use super::embedding::Embedding;
+use super::padding::Padding;
 use super::site::Site;
 use crate::context::Context;
 use crate::error::Result;
 use crate::mesh::{CellField, Cells, Mesh, Point};
+use crate::optimise::quadrilateral_scaled_jacobian;
 
 /// A quadrilateral mesh of the shape's surface. Fields have one value per quadrilateral.
 #[derive(Clone, Debug, PartialEq)]
@@ -27,6 +29,14 @@ pub struct Quads {
 }
 
 impl Quads {
+    /// The [scaled Jacobian](quadrilateral_scaled_jacobian) of every quadrilateral, in −1..1: how near it is to a rectangle.
+    pub fn scaled_jacobian(&self) -> Vec<f64> {
+        match &self.mesh.cells {
+            Cells::Quads(quads) => quads.iter().map(|q| quadrilateral_scaled_jacobian(&self.mesh.points, q)).collect(),
+            _ => Vec::new(),
+        }
+    }
+
     /// The fields `label`, `patch_id` and `block_id` for mesh files.
     pub fn fields(&self) -> Vec<CellField> {
         let numbers = |ids: &[u32]| ids.iter().map(|&i| i as i32).collect();
@@ -36,6 +46,23 @@ impl Quads {
             CellField::integer("patch_id", numbers(&self.patch_id)),
             CellField::integer("block_id", numbers(&self.block_id)),
         ]
+    }
+}
+
+impl Quads {
+    /// The mesh edges that lie on edges of the polycube, as pairs of vertices, the lower one first, in ascending order.
+    /// O(n log n) for n quadrilaterals.
+    pub fn feature_edges(&self) -> Vec<[u32; 2]> {
+        let mut sides: Vec<([u32; 2], i8)> = Vec::with_capacity(4 * self.label.len());
+        for (i, &label) in self.label.iter().enumerate() {
+            let quad = self.mesh.cells.cell(i);
+            let side = |k: usize| [quad[k].min(quad[(k + 1) % 4]), quad[k].max(quad[(k + 1) % 4])];
+            sides.extend((0..4).map(|k| (side(k), label)));
+        }
+        sides.sort_unstable();
+        // Both facets at an edge of the polycube look along other axes, and two of one label do not meet at a side.
+        let at_edge = |pair: &&[([u32; 2], i8)]| pair.iter().any(|(_, label)| *label != pair[0].1);
+        sides.chunk_by(|a, b| a.0 == b.0).filter(at_edge).map(|pair| pair[0].0).collect()
     }
 }
 
@@ -77,6 +104,13 @@ impl Remesher<'_> {
             // The outermost layer comes last.
             _ => points[points.len() - ring.len()..].to_vec(),
         }
+    }
+
+    /// The surface's quadrilaterals over the vertices of [`hexes`](Self::hexes) with this `padding`.
+    pub(super) fn surface_quads(&self, padding: usize) -> Vec<[u32; 4]> {
+        let layers = Padding::new(&self.grid, padding);
+        let outermost = |v| layers.number(&self.grid, v, padding);
+        self.grid.squares.iter().map(|s| s.vertices.map(outermost)).collect()
     }
 
     /// The lattice's vertices with those on the surface put on the shape.

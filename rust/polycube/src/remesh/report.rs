@@ -14,7 +14,7 @@ pub const MOST_LISTED: usize = 1000;
 /// What was done, for people and programs: what [`simplify::Report`] says and how good the meshes are.
 #[derive(Clone, Debug, PartialEq, serde::Serialize)]
 pub struct RemeshReport {
-    /// What the simplification did; its time is part of [`seconds`](Self::seconds).
+    /// What the simplification did, with the seconds of all stages of the remeshing.
     #[serde(flatten)]
     pub simplify: simplify::Report,
     /// Number of quadrilaterals.
@@ -45,8 +45,8 @@ pub struct RemeshReport {
     pub hausdorff_percent: f64,
     /// Whether that is within the bound asked for.
     pub within_hausdorff: bool,
-    /// Time spent in each stage, in seconds.
-    #[serde(rename = "remesh_seconds")]
+    /// Time spent in the stages of remeshing, in seconds; files have those in [`simplify`](Self::simplify).
+    #[serde(skip)]
     pub seconds: Stages,
 }
 
@@ -88,7 +88,7 @@ pub(super) fn cells_of(hexes: &Hexes) -> &[[u32; 8]] {
 
 /// Judges the meshes.
 pub(super) fn measure(
-    map: &Simplified,
+    simplified: &Simplified,
     meshed: &Meshed,
     shape: &Mesh,
     options: &RemeshOptions,
@@ -103,7 +103,7 @@ pub(super) fn measure(
     let found = statistics(&qualities);
     let some = meshed.hexes.is_some();
     let mut report = RemeshReport {
-        simplify: map.report.clone(),
+        simplify: simplified.report.clone(),
         quads: meshed.quads.mesh.cells.len(),
         hexes: found.cells,
         hex_blocks: meshed.hexes.as_ref().map_or(Ok(0), count_blocks)?,
@@ -134,6 +134,15 @@ pub(super) fn measure(
 }
 
 impl RemeshReport {
+    /// Sets the total, and copies the stages to those of the simplification.
+    pub(super) fn set_seconds(&mut self, total: f64) {
+        self.seconds.total = total;
+        let Stages { simplify, map, mesh, optimise, measure, total } = self.seconds;
+        let old = self.simplify.seconds;
+        let morph = (simplify + map - old.structure - old.align).max(0.0);
+        self.simplify.seconds = simplify::Seconds { morph, mesh, optimise, measure, total, ..old };
+    }
+
     /// Whether no hexahedron is inverted and the surface is as near to the shape as asked for.
     pub fn is_good(&self) -> bool {
         self.inverted == 0 && self.within_hausdorff

@@ -46,7 +46,10 @@ pub fn scale_for(input: &Input, simplified: &Simplified, size: Size, padding: us
             Ok(stretch / positive(length, "the edge length")?)
         }
         Size::Hexes(0) => Err(Error::new(ErrorKind::Option, "a mesh has at least one hexahedron")),
-        Size::Hexes(count) => Search { simplified, padding, wanted: count as f64 }.run(context),
+        Size::Hexes(count) => {
+            let targets = &simplified.input.placement;
+            Search { simplified, targets, padding, wanted: count as f64 }.run(context)
+        }
     }
 }
 
@@ -74,17 +77,20 @@ fn area(simplified: &Simplified, points: &[Point]) -> f64 {
     simplified.input.surface.faces().iter().map(|f| area_vector(points, f).norm() / 2.0).sum()
 }
 
-struct Search<'a> {
-    simplified: &'a Simplified,
-    padding: usize,
-    wanted: f64,
+/// Looks for the scale of a wanted count.
+pub(super) struct Search<'a> {
+    pub(super) simplified: &'a Simplified,
+    /// Where the levels should lie, up to the scale.
+    pub(super) targets: &'a [f64],
+    pub(super) padding: usize,
+    pub(super) wanted: f64,
 }
 
 impl Search<'_> {
     const STEPS: usize = 40;
 
     /// Brackets the wanted count around the scale at which it would be right for real coordinates, and bisects.
-    fn run(&self, context: &Context) -> Result<f64> {
+    pub(super) fn run(&self, context: &Context) -> Result<f64> {
         let guess = self.guess();
         let (mut low, mut high) = (guess / 16.0, guess * 2.0);
         let mut scale = guess;
@@ -115,14 +121,14 @@ impl Search<'_> {
         let Simplified { input, levels, report, .. } = self.simplified;
         let guides = self.simplified.options.guides.clone();
         let options = Options { strategy: report.strategy, scale, guides, ..Options::default() };
-        let levels = align::rescale(&input.structure, &input.placement, levels, &options, context)?;
+        let levels = align::rescale(&input.structure, self.targets, levels, &options, context)?;
         Ok((count_hexes(&input.structure, &levels, self.padding) as f64).max(0.5))
     }
 
     /// The root of `volume s³ + padding · surface s² = wanted`.
     fn guess(&self) -> f64 {
         let Simplified { input, .. } = self.simplified;
-        let (volume, surface) = volume_and_surface(&Arrangement::new(&input.structure, &input.placement));
+        let (volume, surface) = volume_and_surface(&Arrangement::new(&input.structure, self.targets));
         let count = |s: f64| volume * s * s * s + self.padding as f64 * surface * s * s;
         let (mut low, mut high) = (0.0, (self.wanted / volume).cbrt());
         for _ in 0..100 {

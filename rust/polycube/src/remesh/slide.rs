@@ -3,8 +3,8 @@
 use super::site::Site;
 use crate::error::Result;
 use crate::mesh::{Face, Point, split_quad};
-use crate::optimise::{CurveGuide, Freedom, Guide, SurfaceGuide};
-use crate::structure::Polycube;
+use crate::optimise::{CurveGuide, Freedom, Guide, SurfaceGuide, Tangent};
+use crate::structure::{Polycube, Structure};
 
 /// Which surface vertices stay where they are.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
@@ -17,8 +17,12 @@ pub(super) enum Hold {
     Surface,
 }
 
+/// A crease is where normals of the shape differ by more than the angle with this cosine: 40 degrees.
+const CREASE: f64 = 0.766;
+
 /// A guide for every facet and, after those, one for every edge of a polycube, and one for all of the surface.
 pub(super) struct Slides {
+    structure: Structure,
     facets: Vec<SurfaceGuide>,
     edges: Vec<CurveGuide>,
     whole: SurfaceGuide,
@@ -37,6 +41,7 @@ impl Slides {
         let segments = |chain: &Vec<u32>| -> Vec<[u32; 2]> { chain.windows(2).map(|s| [s[0], s[1]]).collect() };
         let all: Vec<[u32; 3]> = triangles.concat();
         Ok(Self {
+            structure: polycube.structure.clone(),
             whole: SurfaceGuide::new(shape, &all)?,
             facets: triangles.iter().map(|t| SurfaceGuide::new(shape, t)).collect::<Result<_>>()?,
             edges: polycube.chains.iter().map(|c| CurveGuide::new(shape, &segments(c))).collect::<Result<_>>()?,
@@ -53,6 +58,22 @@ impl Slides {
     /// A vertex that may slide on all of the surface.
     pub(super) fn released(&self) -> Freedom {
         Freedom::Guided((self.facets.len() + self.edges.len()) as u32)
+    }
+
+    /// Whether the shape has no crease at `point`, which lies on the image of `site`.
+    pub(super) fn is_smooth(&self, site: Site, point: &Point) -> bool {
+        let edges = &self.structure.edges;
+        let facets: Vec<u32> = match site {
+            Site::Corner(c) => edges.iter().filter(|e| e.corners.contains(&c)).flat_map(|e| e.facets).collect(),
+            Site::Edge(e) => edges[e as usize].facets.to_vec(),
+            Site::Facet(_) | Site::Inside => return true,
+        };
+        let normal = |&f: &u32| match self.facets[f as usize].contact(point).tangent {
+            Tangent::Plane(n) => Some(n),
+            _ => None,
+        };
+        let normals: Vec<_> = facets.iter().filter_map(normal).collect();
+        normals.len() == facets.len() && normals.iter().all(|n| normals.iter().all(|m| n.dot(m) > CREASE))
     }
 
     /// How vertices on these sites may move.

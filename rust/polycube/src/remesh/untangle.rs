@@ -15,7 +15,8 @@ const TETRAHEDRA: Settings = Settings {
     untangle_iterations: 50,
     improve_rounds: 0,
     improve_iterations: 0,
-    strength: 10.0,
+    average: 0.0,
+    strength: 0.0,
     polish_rounds: 0,
 };
 
@@ -23,7 +24,7 @@ const TETRAHEDRA: Settings = Settings {
 const SMOOTH: Settings = Settings { untangle_rounds: 0, improve_rounds: 2, improve_iterations: 50, ..SURFACE };
 
 /// Untangling of surfaces.
-const SURFACE: Settings = Settings { untangle_rounds: 40, untangle_iterations: 100, strength: 0.0, ..TETRAHEDRA };
+const SURFACE: Settings = Settings { untangle_rounds: 40, untangle_iterations: 100, ..TETRAHEDRA };
 
 /// Turns the tetrahedra of a polycube the right way round, each to look like that of the shape; surface vertices stay on
 /// their facets and edges. Other cells are left as they are. Returns how many are still turned over.

@@ -103,6 +103,11 @@ impl Simplified {
         self.report.distortion.map_or(f64::INFINITY, |[_, after]| after.angle)
     }
 
+    /// Point `index` of the front.
+    pub(crate) fn at_index(&self, input: &Input, index: usize, context: &Context) -> Result<Self> {
+        self.moved(input, self.locate_index(index, context)?, context)
+    }
+
     fn locate_index(&self, index: usize, context: &Context) -> Result<Located> {
         let Self { input: polycube, report, .. } = self;
         let (structure, placement) = (&polycube.structure, &polycube.placement);

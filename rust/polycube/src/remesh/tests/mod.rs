@@ -3,6 +3,7 @@
 mod counts;
 mod on_real_data;
 mod pipeline;
+mod quality;
 mod surface;
 
 use super::{Hexes, Remesher};

@@ -5,7 +5,7 @@ use crate::align::Strategy;
 use crate::context::Context;
 use crate::generate::{Example, example};
 use crate::mesh::{CellKind, Face, Mesh, Point, split_quad};
-use crate::remesh::closest::Closest;
+use crate::optimise::Nearest;
 use crate::remesh::{Site, hausdorff};
 use crate::simplify::Options;
 
@@ -13,13 +13,13 @@ fn size(mesh: &Mesh) -> f64 {
     mesh.points.iter().map(|p| p.coords.norm()).fold(0.0, f64::max)
 }
 
-fn surface(mesh: &Mesh) -> Closest {
+fn surface(mesh: &Mesh) -> Nearest<3> {
     let faces = mesh.cells.boundary().unwrap();
     let triangles = faces.iter().flat_map(|f| match *f {
         Face::Triangle(t) => vec![t],
         Face::Quad(q) => split_quad(q).to_vec(),
     });
-    Closest::new(triangles.map(|t| t.map(|v| mesh.points[v as usize])))
+    Nearest::new(triangles.map(|t| t.map(|v| mesh.points[v as usize])))
 }
 
 /// Quadrilaterals and the boundary of hexahedra have their vertices on the shape, corners on corners.
@@ -36,7 +36,7 @@ pub(super) fn check(case: &Case) {
             Site::Edge(e) => {
                 let chain = &case.simplified.input.chains[e as usize];
                 let segments = chain.windows(2).map(|s| [s[0], s[1], s[1]].map(|v| case.shape.points[v as usize]));
-                assert!(Closest::new(segments).distance(p) < 1e-12 * size, "{}", case.name);
+                assert!(Nearest::new(segments).distance(p) < 1e-12 * size, "{}", case.name);
             }
             Site::Facet(_) => {}
             Site::Inside => panic!("{}: an inner vertex on the surface", case.name),

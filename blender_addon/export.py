@@ -1,0 +1,97 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""*Export Hex Mesh*: the shape filled with hexahedra, as a file."""
+
+import os
+
+import bpy
+import numpy as np
+import polycube
+from bpy.props import EnumProperty, StringProperty
+
+from . import faults, jobs, quads, settings
+
+FORMATS = (
+    ('.vtu', "VTK (.vtu)", "For ParaView and PyVista, with scaled_jacobian, block_id and label of every hexahedron"),
+    ('.vtk', "VTK, old (.vtk)", "For older programs of the same kind, with the same numbers"),
+    ('.mesh', "MEDIT (.mesh)", "For Gmsh, Graphite and other mesh generators"),
+)
+
+
+class POLYCUBE_OT_write_hexes(jobs.JobOperator, settings.SearchOptions, settings.ToleranceOptions,
+                              settings.VolumeOptions, bpy.types.Operator):
+    """Fill the shape with hexahedra and write them to a file"""
+
+    bl_idname = "polycube.write_hexes"
+    bl_label = "Write Hex Mesh"
+    # Nothing in the scene changes.
+    bl_options = {'REGISTER', 'INTERNAL'}
+
+    filepath: StringProperty(name="File", description="Where the file goes", subtype='FILE_PATH', options={'SKIP_SAVE'})
+
+    def begin(self, context, read):
+        if not self.filepath:
+            raise faults.Refused("there is no file name", "give one")
+        return quads.remesh(self, context, read, surface_only=False, padding=self.padding)
+
+    def finish(self, context, read, meshes):
+        shape = bpy.data.objects[read.shape_name or read.holder]
+        placed = in_scene(shape, meshes.hexes.points / read.shape_size)
+        fields = {name: getattr(meshes.hexes, name) for name in ("block_id", "label", "scaled_jacobian")}
+        # The file appears whole or not at all.
+        polycube.Mesh(placed, meshes.hexes.cells, kind="hexahedra").write(bpy.path.abspath(self.filepath), fields=fields)
+        report = meshes.report
+        summary = (
+            f"{report['hexes']} hexahedra in {report['hex_blocks']} blocks\n"
+            f"scaled Jacobian {report['min_sj']:.2f} at worst, {report['avg_sj']:.2f} on average"
+        )
+        context.scene.polycube.result.meshed = summary
+        self.report({'INFO'}, f"{summary.replace(chr(10), ', ')}: {os.path.basename(self.filepath)}")
+        for note in meshes.notes:
+            self.report({'WARNING'}, note)
+
+
+def in_scene(obj, points):
+    """Points of an object's own space where they are in the scene."""
+    matrix = np.array(obj.matrix_world, dtype=np.float64)
+    if np.array_equal(matrix, np.eye(4)):
+        return points
+    return points @ matrix[:3, :3].T + matrix[:3, 3]
+
+
+class POLYCUBE_OT_export_hexes(jobs.Idle, bpy.types.Operator):
+    """Fill the shape with hexahedra that follow the block structure and write them to a file for simulation,
+    in the coordinates of the scene"""
+
+    bl_idname = "polycube.export_hexes"
+    bl_label = "Export Hex Mesh"
+
+    filepath: StringProperty(name="File", description="Where the file goes", subtype='FILE_PATH', options={'SKIP_SAVE'})
+    filter_glob: StringProperty(default="*.vtu;*.vtk;*.mesh", options={'HIDDEN'})
+    format: EnumProperty(name="Format", description="The kind of file", items=FORMATS, default='.vtu')
+    check_existing: bpy.props.BoolProperty(default=True, options={'HIDDEN', 'SKIP_SAVE'})
+
+    def invoke(self, context, _event):
+        if not self.filepath:
+            name = context.scene.polycube.shape.name if context.scene.polycube.shape else "hexes"
+            self.filepath = bpy.path.clean_name(name) + self.format
+        context.window_manager.fileselect_add(self)
+        return {'RUNNING_MODAL'}
+
+    def check(self, _context):
+        """Called by the file browser: the name follows the format."""
+        path = bpy.path.ensure_ext(os.path.splitext(self.filepath)[0], self.format)
+        changed, self.filepath = path != self.filepath, path
+        return changed
+
+    def execute(self, _context):
+        # An operator of its own, because one that asked for a file cannot show progress afterwards.
+        how = 'EXEC_DEFAULT' if bpy.app.background else 'INVOKE_DEFAULT'
+        try:
+            answer = bpy.ops.polycube.write_hexes(how, filepath=self.filepath)
+        except RuntimeError as error:
+            self.report({'ERROR'}, str(error).removeprefix("Error: ").strip())
+            return {'CANCELLED'}
+        return {'FINISHED'} if answer & {'FINISHED', 'RUNNING_MODAL'} else {'CANCELLED'}
+
+
+CLASSES = (POLYCUBE_OT_write_hexes, POLYCUBE_OT_export_hexes)

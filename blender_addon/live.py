@@ -1,0 +1,61 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""The last simplified polycube, kept in memory so that the Simplicity slider can move along what was found."""
+
+import polycube
+
+from . import results
+
+
+class _Last:
+    """The search that the slider moves along."""
+
+    token = 0
+    source = None
+    found = None
+    shown = None
+    still = False
+
+
+def remember(source, found):
+    """Keeps a result; gives the token by which the scene tells that it shows this one."""
+    _Last.token += 1
+    _Last.source, _Last.found, _Last.shown = source, found, found
+    return _Last.token
+
+
+def forget():
+    """Frees the memory."""
+    _Last.source = _Last.found = _Last.shown = None
+
+
+def current(settings):
+    """Source and simplified polycube that the scene shows, or None: another file, or an undo before it."""
+    same = _Last.found is not None and settings.result.token == _Last.token
+    return (_Last.source, _Last.shown) if same else None
+
+
+def tell(settings, simplicity):
+    """Sets the slider without moving anything."""
+    _Last.still = True
+    settings.simplicity = simplicity
+    _Last.still = False
+
+
+def slide(settings, context):
+    """Called when the user moves the slider: changes the result in place."""
+    if _Last.still or current(settings) is None or not _Last.found.front:
+        return
+    try:
+        _Last.shown = _Last.found.at(settings.simplicity)
+    except polycube.PolycubeError as error:
+        settings.result.notes = str(error)
+        return
+    results.update(context, _Last.source, _Last.shown)
+    shown = settings.result.object
+    if shown is not None and shown.name in context.view_layer.objects:
+        shown.hide_set(False)
+
+
+def holder(settings):
+    """The object that the polycube belongs to, where there is one."""
+    return settings.shape if settings.source == 'KEY' else settings.polycube

@@ -1,0 +1,103 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""*Quad Remesh*: a quadrilateral mesh of the shape that follows the block structure."""
+
+import bpy
+import numpy as np
+import polycube
+
+from . import colours, curves, jobs, live, results, settings, simplify, source, transfer
+
+
+class POLYCUBE_OT_quad_remesh(jobs.JobOperator, settings.SearchOptions, settings.ToleranceOptions, settings.MeshOptions,
+                              bpy.types.Operator):
+    """Mesh the shape with quadrilaterals that follow the block structure, as a new object with the materials,
+    vertex groups and UV maps of the shape. The original is kept"""
+
+    bl_idname = "polycube.quad_remesh"
+    bl_label = "Quad Remesh"
+
+    def begin(self, context, read):
+        return remesh(self, context, read, surface_only=True)
+
+    def finish(self, context, read, meshes):
+        obj, shape = quad_object(context, read, meshes, "Quads")
+        with source.visible(context, shape, 0 if read.key else None):
+            transfer.carry_over(context, shape, obj)
+        lines = curves.singular(context, shape, obj, meshes, read.shape_size)
+        finish(self, context, read, [obj, *lines], meshes)
+
+    def draw(self, _context):
+        from . import panel
+        panel.draw_search(self.layout, self)
+        panel.draw_size(self.layout, self)
+
+
+def remesh(options, context, read, surface_only, padding=1):
+    """Starts to mesh the shape, with the blocks that the slider shows or with new ones."""
+    cube, arguments = _structure(options, context, read)
+    size = {
+        "edge_length": options.edge_length if options.size == 'LENGTH' else None,
+        "hexes": options.hexes if options.size == 'COUNT' else None,
+    }
+    shape = read.shape or read.polycube
+    return polycube.Job.remesh(shape, cube, padding=padding, surface_only=surface_only, **size, **arguments)
+
+
+def _structure(options, context, read):
+    """The polycube to mesh with, and the arguments that make it so."""
+    shown = live.current(context.scene.polycube) if options.blocks_from == 'SHOWN' else None
+    if shown is not None and shown[0].fingerprint == read.fingerprint and shown[1].polycube is not None:
+        # It lies on its lattice already, where rounding changes nothing.
+        return shown[1].polycube, {"strategy": "naive", "labels": shown[1].labels, "scale": _scale(options)}
+    locked = source.locked_cells(read, options, bpy.data.objects[read.holder])
+    return read.polycube, simplify.search_options(options, locked)
+
+
+def _scale(options):
+    return 1.0 if options.size == 'AUTO' else None
+
+
+def quad_object(context, read, meshes, what):
+    """The quadrilaterals as a new object where the shape lies, and the shape's object."""
+    shape = bpy.data.objects[read.shape_name or read.holder]
+    quads = meshes.quads
+    mesh = bpy.data.meshes.new(what)
+    set_quads(mesh, quads.points / read.shape_size, quads.cells)
+    colours.write(
+        mesh,
+        block_id=quads.block_id,
+        patch_id=quads.patch_id,
+        label=quads.label,
+        scaled_jacobian=quads.scaled_jacobian,
+    )
+    return results.new_object(context, shape, f"{shape.name} {what}", mesh), shape
+
+
+def set_quads(mesh, points, cells):
+    """Fills an empty mesh with quadrilaterals."""
+    mesh.vertices.add(len(points))
+    mesh.vertices.foreach_set("co", points.astype(np.float32).ravel())
+    mesh.loops.add(cells.size)
+    mesh.loops.foreach_set("vertex_index", cells.astype(np.int32).ravel())
+    mesh.polygons.add(len(cells))
+    mesh.polygons.foreach_set("loop_start", np.arange(0, cells.size, 4, dtype=np.int32))
+    mesh.update(calc_edges=True)
+
+
+def finish(operator, context, read, objects, meshes):
+    """Shows new objects in place of shape and polycube, and says how they turned out."""
+    report = meshes.report
+    for obj in objects[1:]:
+        obj.parent = objects[0]
+        obj.matrix_parent_inverse = objects[0].matrix_world.inverted()
+    inputs = [bpy.data.objects[name] for name in (read.holder, read.shape_name) if name]
+    results.show(context, objects, inputs)
+    distance = f"at most {report['hausdorff_percent']:.2f} % of the diagonal off the shape"
+    summary = f"{report['quads']} quadrilaterals in {len(meshes.layout.patches.cells)} patches, {distance}"
+    context.scene.polycube.result.meshed = summary
+    operator.report({'INFO'}, summary)
+    for note in meshes.notes:
+        operator.report({'WARNING'}, note)
+
+
+CLASSES = (POLYCUBE_OT_quad_remesh,)

@@ -1,0 +1,120 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""The simplified polycube in Blender: as a new object or a new shape key, with face attributes and numbers."""
+
+import bpy
+import numpy as np
+import polycube
+
+from . import colours, faults
+from .source import visible
+
+KEY_NAME = "Simplified"
+# The custom property that tells results from other objects.
+MARK = "polycube_result"
+
+
+def check_output(source, output):
+    """Refuses, before the work begins, a result that could not be put where it is wanted."""
+    if not _as_key(source, output):
+        return
+    if not source.editable:
+        raise faults.Refused(
+            "the result cannot be a shape key: modifiers make other vertices than those of the mesh",
+            "apply them, or take a new object as the result",
+        )
+    holder = bpy.data.objects[source.holder]
+    if holder.library is not None or holder.data.library is not None:
+        raise faults.Refused(f"{holder.name} is linked from another file", "take a new object as the result")
+
+
+def _as_key(source, output):
+    """Whether the result becomes a shape key; an object otherwise."""
+    return output == 'KEY' or (output == 'AUTO' and source.key is not None and source.editable)
+
+
+def place(context, source, simplified, output, token):
+    """Makes a new shape key or object of a result and shows it. What was there is kept, and hidden where it is covered."""
+    if simplified.polycube is None:
+        raise faults.Refused("rounding broke the polycube: " + "; ".join(simplified.notes), "use the strategy Best or Paper")
+    as_key = _as_key(source, output)
+    holder = bpy.data.objects[source.holder]
+    obj, key = (holder, _new_key(holder)) if as_key else (_new_object(context, holder, source), "")
+    result = context.scene.polycube.result
+    result.token, result.object, result.key, result.meshed = token, obj, key, ""
+    update(context, source, simplified)
+    show(context, [obj], [holder])
+
+
+def show(context, objects, covered):
+    """Shows new results and selects the first. Hides earlier ones, and what the new ones cover."""
+    for other in context.view_layer.objects:
+        if other.get(MARK) or other in covered:
+            other.hide_set(other not in objects)
+    faults.enter(context, objects[0])
+    colours.show(context, objects[0])
+
+
+def update(context, source, simplified):
+    """Moves the vertices of the result shown, and writes its attributes and numbers."""
+    settings = context.scene.polycube
+    obj = settings.result.object
+    if obj is None or simplified.polycube is None:
+        return
+    mesh = obj.data
+    points = (simplified.polycube.points / simplified.scale / source.size).astype(np.float32).ravel()
+    if settings.result.key:
+        key = mesh.shape_keys.key_blocks.get(settings.result.key)
+        if key is None:
+            return
+        key.data.foreach_set("co", points)
+    else:
+        mesh.vertices.foreach_set("co", points)
+    structure = polycube.structure(simplified.polycube, labels=simplified.labels)
+    first = _first_cell(source)
+    colours.write(mesh, block_id=structure.block_id[first], label=structure.label[first])
+    colours.paint(mesh, settings.colour)
+    _count(settings.result, simplified)
+
+
+def _first_cell(source):
+    """For every polygon the first of its cells."""
+    return np.searchsorted(source.polygon_of_cell, np.arange(source.polygon_count))
+
+
+def _count(result, simplified):
+    before, after = simplified.counts_before, simplified.counts_after
+    result.patches = before.surface_patches, after.surface_patches
+    result.blocks = before.blocks, after.blocks
+    result.padded = before.blocks_padded, after.blocks_padded
+    result.displacement = simplified.report["max_displacement"]
+    result.notes = "\n".join(simplified.notes)
+
+
+def _new_key(holder):
+    if holder.data.shape_keys is None:
+        holder.shape_key_add(name="Basis", from_mix=False)
+    for key in holder.data.shape_keys.key_blocks[1:]:
+        key.value = 0.0
+    key = holder.shape_key_add(name=KEY_NAME, from_mix=False)
+    key.value = 1.0
+    holder.active_shape_key_index = holder.data.shape_keys.key_blocks.find(key.name)
+    return key.name
+
+
+def _new_object(context, holder, source):
+    with visible(context, holder):
+        depsgraph = context.evaluated_depsgraph_get()
+        evaluated = holder.evaluated_get(depsgraph)
+        mesh = bpy.data.meshes.new_from_object(evaluated, preserve_all_data_layers=True, depsgraph=depsgraph)
+    return new_object(context, holder, f"{holder.name} Simplified", mesh)
+
+
+def new_object(context, like, name, data):
+    """A new object that lies where `like` lies, in the same collections."""
+    data.name = name
+    obj = bpy.data.objects.new(name, data)
+    for collection in like.users_collection or [context.scene.collection]:
+        collection.objects.link(obj)
+    obj.matrix_world = like.matrix_world
+    obj[MARK] = True
+    return obj

@@ -1,0 +1,55 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""*Simplify*: the polycube with fewer blocks."""
+
+import bpy
+import polycube
+
+from . import faults, jobs, live, results, settings, source
+
+
+class POLYCUBE_OT_simplify(jobs.JobOperator, settings.SimplifyOptions, bpy.types.Operator):
+    """Move the facets of the polycube onto a lattice so that corners align and the solid falls into fewer blocks.
+    Every corner, edge and facet is kept, and so is the original"""
+
+    bl_idname = "polycube.simplify"
+    bl_label = "Simplify"
+
+    def begin(self, context, read):
+        results.check_output(read, self.output)
+        step = self.lattice_step if self.lattice == 'STEP' else None
+        holder = bpy.data.objects[read.holder]
+        locked = source.locked_cells(read, self, holder)
+        return polycube.Job.simplify(read.polycube, read.shape, edge_length=step, **search_options(self, locked))
+
+    def finish(self, context, read, found):
+        token = live.remember(read, found)
+        results.place(context, read, found, self.output, token)
+        live.tell(context.scene.polycube, self.simplicity)
+        before, after = found.counts_before, found.counts_after
+        self.report({'INFO'}, f"Patches {before.surface_patches} → {after.surface_patches}, "
+                              f"blocks {before.blocks} → {after.blocks}")
+        for note in found.notes:
+            self.report({'WARNING'}, note)
+
+    def draw(self, _context):
+        from . import panel
+        panel.draw_search(self.layout, self)
+        panel.draw_lattice(self.layout, self)
+
+
+def search_options(options, locked):
+    """The arguments that `Job.simplify` and `Job.remesh` share, from an operator's or the panel's options."""
+    given = {
+        "strategy": options.strategy,
+        "objective": options.objective,
+        "simplicity": options.simplicity,
+        "max_displacement": options.max_displacement or None,
+        "max_distortion": options.max_distortion or None,
+        "locked_faces": locked,
+        "steps": options.steps,
+        **options.tolerances(),
+    }
+    return {name: value for name, value in given.items() if value is not None}
+
+
+CLASSES = (POLYCUBE_OT_simplify,)

@@ -1,0 +1,116 @@
+/// @file
+/// From a polycube and its shape to a coarse layout, quadrilaterals and hexahedra.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <optional>
+#include <polycube/simplify.hpp>
+#include <string>
+#include <vector>
+
+namespace polycube {
+
+/// How fine a mesh shall be.
+struct Size {
+    enum class Kind : std::uint8_t {
+        scale,        ///< Lattice steps per unit of the polycube, above 0.
+        edge_length,  ///< Mean length of the mesh's edges, in units of the shape, above 0.
+        hexes,        ///< About how many hexahedra there shall be, padding included; at least 1.
+    };
+    Kind kind = Kind::scale;
+    double value = 1.0;
+};
+
+/// How a shape is meshed.
+struct RemeshOptions {
+    /// How the polycube is simplified. Unless `max_displacement` is set, corners move by a twelfth of the polycube's
+    /// diagonal at most. Of `scale` only `size` is used where that is given.
+    Options simplify;
+    /// Without one: as `Options::scale` says.
+    std::optional<Size> size;
+    /// Layers of hexahedra between the polycube and the surface, 0 to 16.
+    std::uint32_t padding = 1;
+    /// Leave the hexahedra out.
+    bool surface_only = false;
+    /// The largest Hausdorff distance to accept, as a part of the bounding box's diagonal, above 0.
+    double max_hausdorff = 0.005;
+};
+
+/// The quadrilateral mesh of the surface. One number per quadrilateral.
+struct QuadMesh {
+    Mesh mesh;                            ///< In units of the shape; vertices lie on the shape.
+    std::vector<std::int8_t> label;       ///< 0 to 5 for +X -X +Y -Y +Z -Z.
+    std::vector<std::uint32_t> patch_id;  ///< The patch, from 0: a cell of `Layout::patches`.
+    std::vector<std::uint32_t> block_id;  ///< The padding block below it in the padded base complex.
+
+    /// label, patch_id, block_id for `write_mesh`, as the command writes them.
+    std::vector<CellField> fields() const;
+};
+
+/// The hexahedral mesh. One number per hexahedron.
+struct HexMesh {
+    Mesh mesh;                            ///< In units of the shape.
+    std::vector<std::uint32_t> block_id;  ///< The block, from 0: a cell of `Layout::blocks`.
+    std::vector<std::int8_t> label;       ///< The label of its facet at the surface, 0 to 5; -1 inside.
+    std::vector<double> scaled_jacobian;  ///< The smallest of its corners', -1 to 1; 0 or less is inverted.
+
+    /// block_id, label, scaled_jacobian for `write_mesh`, as the command writes them.
+    std::vector<CellField> fields() const;
+};
+
+/// A line of edges at which an irregular number of blocks meet.
+struct SingularEdge {
+    std::vector<double> points;  ///< x, y, z of its vertices in order.
+    std::uint32_t valence = 0;   ///< How many blocks meet at it.
+};
+
+/// Blocks and patches as single cells on the shape. Neighbours share whole faces and sides.
+struct Layout {
+    Mesh blocks;                           ///< One hexahedron per block.
+    Mesh patches;                          ///< One quadrilateral per patch.
+    std::vector<std::int8_t> patch_label;  ///< The label of every patch.
+    std::vector<SingularEdge> singular;    ///< The singular edges.
+
+    /// block_id of `blocks` for `write_mesh`, as the command writes it.
+    std::vector<CellField> block_fields() const;
+};
+
+/// How good the meshes are. `Remeshed::report_json` has all of it and more.
+struct RemeshReport {
+    std::uint64_t quads = 0;       ///< Number of quadrilaterals.
+    std::uint64_t hexes = 0;       ///< Number of hexahedra; 0 for a surface alone.
+    std::uint64_t hex_blocks = 0;  ///< Blocks of the base complex of the hexahedra, counted on the finished mesh.
+    std::uint64_t inverted = 0;    ///< Hexahedra whose scaled Jacobian is not positive.
+    std::uint64_t released = 0;    ///< Vertices that left polycube corners and edges so that no hexahedron is inverted.
+    std::optional<double> min_scaled_jacobian;   ///< Nothing without hexahedra.
+    std::optional<double> mean_scaled_jacobian;  ///< Nothing without hexahedra.
+    double hausdorff = 0.0;           ///< Hausdorff distance between quadrilaterals and shape, in units of the shape.
+    double hausdorff_percent = 0.0;   ///< The same in percent of the diagonal of the shape's bounding box.
+    bool within_hausdorff = false;    ///< Whether that is within `RemeshOptions::max_hausdorff`.
+    bool good = false;                ///< Whether nothing is inverted and the surface is near enough.
+    double seconds = 0.0;             ///< Time spent.
+    std::vector<std::string> faults;  ///< What is not as good as asked for, in plain words.
+};
+
+/// Meshes of a shape and the block structure that they have.
+struct Remeshed {
+    Simplified simplified;  ///< The polycube on the lattice of the meshes. Its report says what the simplification did.
+    Layout layout;          ///< Blocks and patches as single cells.
+    QuadMesh quads;         ///< The surface; with hexahedra it is theirs.
+    std::optional<HexMesh> hexes;  ///< The volume, unless only the surface was asked for.
+    RemeshReport report;           ///< How good they are.
+    std::string
+        report_json;  ///< All of it as JSON: what the command writes to report.json, without its files and options.
+};
+
+/// Simplifies a polycube and meshes its shape with the block structure found. Without a shape the polycube itself is
+/// meshed.
+///
+/// Where inverted hexahedra remain or the surface is farther from the shape than asked for, the result is given all the
+/// same and the report says so.
+///
+/// @throws Error as `simplify()`; option for a size, padding or distance out of range.
+Remeshed remesh(const Input& input, const RemeshOptions& options = {}, const Context& context = {});
+
+}  // namespace polycube

@@ -1,0 +1,90 @@
+#include <polycube/remesh.hpp>
+
+#include "bridge.hpp"
+
+namespace polycube {
+namespace {
+
+template <class T>
+CellField integers(const char* name, const std::vector<T>& values) {
+    return {name, std::vector<std::int32_t>(values.begin(), values.end())};
+}
+
+bridge::RemeshOptionsData options(const RemeshOptions& options) {
+    bridge::RemeshOptionsData data;
+    data.simplify = internal::options(options.simplify);
+    const Size size = options.size.value_or(Size{});
+    data.has_size = options.size.has_value();
+    data.size_kind = static_cast<std::uint8_t>(size.kind);
+    data.size = size.value;
+    data.padding = options.padding;
+    data.surface_only = options.surface_only;
+    data.max_hausdorff = options.max_hausdorff;
+    return data;
+}
+
+Layout layout(const bridge::LayoutData& data) {
+    Layout layout{internal::mesh(data.blocks), internal::mesh(data.patches), internal::vector(data.patch_label), {}};
+    for (const auto& edge : data.singular) layout.singular.push_back({internal::vector(edge.points), edge.valence});
+    return layout;
+}
+
+QuadMesh quads(const bridge::QuadsData& data) {
+    return {internal::mesh(data.mesh), internal::vector(data.label), internal::vector(data.patch_id),
+            internal::vector(data.block_id)};
+}
+
+HexMesh hexes(const bridge::HexesData& data) {
+    return {internal::mesh(data.mesh), internal::vector(data.block_id), internal::vector(data.label),
+            internal::vector(data.scaled_jacobian)};
+}
+
+RemeshReport report(const bridge::RemeshReportData& data) {
+    RemeshReport report;
+    report.quads = data.quads;
+    report.hexes = data.hexes;
+    report.hex_blocks = data.hex_blocks;
+    report.inverted = data.inverted;
+    report.released = data.released;
+    report.min_scaled_jacobian = internal::real(data.min_sj);
+    report.mean_scaled_jacobian = internal::real(data.avg_sj);
+    report.hausdorff = data.hausdorff;
+    report.hausdorff_percent = data.hausdorff_percent;
+    report.within_hausdorff = data.within_hausdorff;
+    report.good = data.good;
+    report.seconds = data.seconds;
+    report.faults = internal::strings(data.faults);
+    return report;
+}
+
+}  // namespace
+
+std::vector<CellField> QuadMesh::fields() const {
+    return {integers("label", label), integers("patch_id", patch_id), integers("block_id", block_id)};
+}
+
+std::vector<CellField> HexMesh::fields() const {
+    return {integers("block_id", block_id), integers("label", label), {"scaled_jacobian", scaled_jacobian}};
+}
+
+std::vector<CellField> Layout::block_fields() const {
+    std::vector<std::int32_t> ids(blocks.cell_count());
+    for (std::size_t i = 0; i < ids.size(); ++i) ids[i] = static_cast<std::int32_t>(i);
+    return {{"block_id", std::move(ids)}};
+}
+
+Remeshed remesh(const Input& input, const RemeshOptions& settings, const Context& context) {
+    const bridge::RemeshOptionsData data = options(settings);
+    const auto work = [&](const auto& listener) { return bridge::remesh(internal::view(input), data, listener); };
+    bridge::RemeshedData result = internal::call(context, work);
+    Remeshed remeshed{internal::simplified(std::move(result.simplified)),
+                      layout(result.layout),
+                      quads(result.quads),
+                      {},
+                      report(result.report),
+                      std::string(result.report_json)};
+    if (result.has_hexes) remeshed.hexes = hexes(result.hexes);
+    return remeshed;
+}
+
+}  // namespace polycube

@@ -1,0 +1,7 @@
+cmake_minimum_required(VERSION 3.25)
+project(host LANGUAGES CXX)
+set(POLYCUBE_WITH_OPENMESH OFF CACHE BOOL "")
+set(POLYCUBE_WITH_CGAL OFF CACHE BOOL "")
+add_subdirectory("${POLYCUBE_SOURCE}" polycube)
+add_executable(host host.cpp)
+target_link_libraries(host PRIVATE polycube::polycube)

@@ -1,0 +1,116 @@
+#include <QDir>
+#include <QFileInfo>
+#include <algorithm>
+#include <stdexcept>
+
+#include "layers.h"
+#include "pair.h"
+
+namespace {
+
+/// Polycube: Hex Remesh to File.
+class HexFilter final : public Filter {
+ public:
+    QString name() const override { return "Polycube: Hex Remesh to File"; }
+    QString python_name() const override { return "generate_polycube_hex_remesh"; }
+    QString help() const override {
+        return "Simplifies the polycube of a shape and meshes the solid with hexahedra along the coarse block structure. "
+               "MeshLab holds no volumes, so they go to a file: .vtu or .vtk for ParaView, with scaled Jacobian, block "
+               "and label of each cell, or .mesh (MEDIT). Their boundary is shown as a new layer, coloured by block. "
+               "The log tells the counts, the least scaled Jacobian, and what was not possible. Ten thousand hexahedra "
+               "take some seconds to a minute, and MeshLab cannot stop a filter on its way.";
+    }
+    int changes() const override { return MeshModel::MM_GEOMETRY_AND_TOPOLOGY_CHANGE; }
+    void add_parameters(const MeshDocument& document, RichParameterList& parameters) const override;
+    host::Values apply(const Call& call) const override;
+};
+
+/// A file beside that of the current layer.
+QString proposed_file(const MeshDocument& document) {
+    if (document.mm() == nullptr) return "hexes.vtu";
+    const QFileInfo source(document.mm()->fullName());
+    if (document.mm()->fullName().isEmpty()) return "hexes.vtu";
+    return source.absolutePath() + "/" + source.completeBaseName() + ".hexes.vtu";
+}
+
+/// About half as many hexahedra as the layer has faces, within what takes seconds.
+int proposed_count(const MeshDocument& document) {
+    return document.mm() == nullptr ? 5000 : std::min(std::max(document.mm()->cm.fn / 2, 1000), 10000);
+}
+
+void HexFilter::add_parameters(const MeshDocument& document, RichParameterList& parameters) const {
+    parameters.addParam(host::FileSave("file", proposed_file(document), "Hexahedral mesh (*.vtu *.vtk *.mesh)",
+                                       "Write the hexahedra to", "A file whose name ends in .vtu, .vtk or .mesh."));
+    add_pair(document, parameters);
+    parameters.addParam(RichInt("hexes", proposed_count(document), "Number of hexahedra",
+                                "About how many there shall be, padding included."));
+    parameters.addParam(RichInt("padding", 1, "Padding",
+                                "How many layers of hexahedra lie between the blocks and the surface, 0 to 16. Without "
+                                "any, hexahedra on polycube edges are flat where the shape is smooth."));
+    add_lock(document, parameters);
+}
+
+/// The file to write. @throws std::invalid_argument if it cannot be one, before any work is done.
+std::string checked_file(const QString& name) {
+    const QFileInfo file(name);
+    const QString suffix = file.suffix().toLower();
+    if (suffix != "vtu" && suffix != "vtk" && suffix != "mesh")
+        throw std::invalid_argument("\"" + name.toStdString() + "\" is no file for hexahedra. Choose a name that ends in "
+                                    ".vtu, .vtk or .mesh.");
+    if (!file.absoluteDir().exists())
+        throw std::invalid_argument("The folder of \"" + name.toStdString() + "\" does not exist. Choose another one.");
+    return file.absoluteFilePath().toStdString();
+}
+
+polycube::filter::Settings settings_of(const RichParameterList& parameters) {
+    const int hexes = parameters.getInt("hexes");
+    const int padding = parameters.getInt("padding");
+    if (hexes < 1) throw std::invalid_argument("The number of hexahedra must be 1 or more.");
+    if (padding < 0) throw std::invalid_argument("The padding must be 0 to 16.");
+    polycube::filter::Settings settings;
+    settings.options.size = polycube::Size{polycube::Size::Kind::hexes, double(hexes)};
+    settings.options.padding = std::uint32_t(padding);
+    return settings;
+}
+
+/// Writes the bytes that the command writes: MEDIT files without fields.
+void write(const std::string& file, const polycube::HexMesh& hexes) {
+    const bool medit = file.substr(file.rfind('.') + 1) == "mesh";
+    polycube::write_mesh(file, hexes.mesh, medit ? std::vector<polycube::CellField>() : hexes.fields());
+}
+
+host::Values HexFilter::apply(const Call& call) const {
+    const std::string file = checked_file(call.parameters.getSaveFileName("file"));
+    const polycube::filter::Settings settings = settings_of(call.parameters);
+    const PairLayers layers = chosen_pair(call);
+    const polycube::filter::Pair pair = read_pair(call, layers).pair;
+    const polycube::filter::RemeshedPair meshed = polycube::filter::remesh(pair, settings, call.context);
+    const polycube::Remeshed& result = meshed.result;
+
+    MeshModel& target = layers.target();
+    NewLayers added(call.document);
+    MeshModel& layer = added.add(result.quads.mesh, target.label() + " hexes", &target);
+    paint(cells_of_written(result.quads.mesh), colours_of(result.quads.block_id),
+          {{"block_id", as_scalars(result.quads.block_id)}}, layer);
+    write(file, *result.hexes);
+    added.keep();
+    call.document.setVisible(layers.polycube.id(), false);
+    call.document.setVisible(target.id(), false);
+    call.log_all(meshed.log);
+    call.log("written to " + file);
+
+    host::Values values;
+    add_counts(result.simplified.report(), values);
+    values["locked_faces"] = int(pair.locked_faces.size());
+    values["hexes"] = int(result.report.hexes);
+    values["inverted"] = int(result.report.inverted);
+    values["min_scaled_jacobian"] = result.report.min_scaled_jacobian.value_or(0.0);
+    values["mean_scaled_jacobian"] = result.report.mean_scaled_jacobian.value_or(0.0);
+    values["hausdorff"] = result.report.hausdorff;
+    values["good"] = result.report.good;
+    return values;
+}
+
+}  // namespace
+
+std::unique_ptr<Filter> make_hex_filter() { return std::make_unique<HexFilter>(); }

@@ -1,0 +1,118 @@
+#include "pair.h"
+
+#include <algorithm>
+#include <cmath>
+#include <iterator>
+#include <stdexcept>
+
+#include "layers.h"
+
+namespace {
+
+/// How far the faces look along the axes: 1 if all do.
+double axis_alignment(const CMeshO& mesh) {
+    double sum = 0.0;
+    for (const CFaceO* face : live_faces(mesh)) {
+        const Point3m normal = vcg::NormalizedTriangleNormal(*face);
+        sum += std::max({std::abs(normal[0]), std::abs(normal[1]), std::abs(normal[2])});
+    }
+    return mesh.fn > 0 ? sum / mesh.fn : 0.0;
+}
+
+/// Another layer that may be of one pair with `layer`; `layer` itself if there is none.
+const MeshModel* twin_of(const MeshModel* layer, const MeshDocument& document) {
+    for (const MeshModel* other : host::layers(document))
+        if (other != layer && other->cm.fn == layer->cm.fn && other->cm.vn == layer->cm.vn) return other;
+    return layer;
+}
+
+/// The polycube and the shape that the dialog proposes; null in an empty document.
+std::pair<const MeshModel*, const MeshModel*> proposed_pair(const MeshDocument& document) {
+    const MeshModel* current = document.mm();
+    if (current == nullptr) return {nullptr, nullptr};
+    const MeshModel* twin = twin_of(current, document);
+    if (axis_alignment(twin->cm) > axis_alignment(current->cm)) return {twin, current};
+    return {current, twin};
+}
+
+bool has_selection(const MeshModel* layer) { return layer != nullptr && has_selection(layer->cm); }
+
+bool shall_lock(const RichParameterList& parameters) {
+    return parameters.hasParameter("lock_selected_faces") && parameters.getBool("lock_selected_faces");
+}
+
+}  // namespace
+
+void add_pair(const MeshDocument& document, RichParameterList& parameters) {
+    const auto [polycube, shape] = proposed_pair(document);
+    parameters.addParam(host::layer_parameter(
+        "polycube", polycube, document, "Polycube",
+        "The layer with the polycube: a closed mesh whose faces look along the axes. It need not be exact: faces may "
+        "be off by 30 degrees."));
+    parameters.addParam(host::layer_parameter(
+        "shape", shape, document, "Shape",
+        "The layer with the shape that the polycube was deformed from; it has the same vertices and faces. If there "
+        "is none, choose the polycube here, too."));
+}
+
+void add_lock(const MeshDocument& document, RichParameterList& parameters) {
+    const auto [polycube, shape] = proposed_pair(document);
+    parameters.addParam(RichBool("lock_selected_faces", has_selection(polycube) || has_selection(shape),
+                                 "Lock selected faces",
+                                 "The plane sides of the polycube that hold a selected face stay where they are, up to "
+                                 "rounding to the lattice. Faces may be selected on either layer."));
+}
+
+PairLayers chosen_pair(const Call& call) {
+    MeshModel* polycube = host::chosen_layer(call.parameters, "polycube", call.document);
+    MeshModel* shape = host::chosen_layer(call.parameters, "shape", call.document);
+    for (const MeshModel* layer : {polycube, shape}) {
+        if (layer == nullptr) throw std::invalid_argument("A chosen layer does not exist. Choose another one.");
+        if (layer->cm.fn == 0)
+            throw std::invalid_argument("The layer \"" + layer->label().toStdString() +
+                                        "\" has no faces. Choose a layer with a closed mesh.");
+    }
+    return {*polycube, shape == polycube ? nullptr : shape};
+}
+
+PlainPair read_pair(const Call& call, const PairLayers& layers) {
+    const CMeshO& first = layers.polycube.cm;
+    if (layers.shape == nullptr) {
+        Plain polycube = read(first);
+        std::vector<std::uint32_t> locked;
+        if (shall_lock(call.parameters)) locked = selected_cells(first, polycube);
+        return {{std::move(polycube.mesh), {}, {}, std::move(locked)}, std::move(polycube.cell_of_face), {}};
+    }
+    const CMeshO& second = layers.shape->cm;
+    Plain polycube = read(first), shape = read(second);
+    if (polycube.mesh.kind != shape.mesh.kind) {
+        polycube = read_triangles(first);
+        shape = read_triangles(second);
+    }
+    std::vector<std::uint32_t> locked;
+    if (shall_lock(call.parameters)) {
+        const std::vector<std::uint32_t> here = selected_cells(first, polycube), there = selected_cells(second, shape);
+        std::set_union(here.begin(), here.end(), there.begin(), there.end(), std::back_inserter(locked));
+    }
+    return {{std::move(polycube.mesh), std::move(shape.mesh), {}, std::move(locked)},
+            std::move(polycube.cell_of_face),
+            std::move(shape.cell_of_face)};
+}
+
+void add_counts(const polycube::Report& report, host::Values& values) {
+    const auto add = [&values](const std::string& when, const polycube::Counts& counts) {
+        values["surface_patches_" + when] = int(counts.surface_patches);
+        values["blocks_" + when] = int(counts.blocks);
+        values["blocks_padded_" + when] = int(counts.blocks_padded);
+    };
+    add("before", report.before);
+    if (report.after) add("after", *report.after);
+    values["max_displacement"] = report.max_displacement;
+    values["scale"] = report.scale;
+}
+
+std::vector<vcg::Color4b> colours_of(const std::vector<std::uint32_t>& numbers) {
+    std::vector<vcg::Color4b> colours;
+    for (std::uint32_t number : numbers) colours.push_back(colour_of_number(number));
+    return colours;
+}

@@ -1,0 +1,51 @@
+/// @file
+/// The parameters that most filters share: which layer is the polycube, which one the shape, and what stays in place.
+#pragma once
+
+#include <polycube/filter.hpp>
+
+#include "filter.h"
+
+/// The layers that a filter works on.
+struct PairLayers {
+    MeshModel& polycube;
+    /// Null if the polycube stands alone.
+    MeshModel* shape;
+
+    /// What a mesh made from them lies on: the shape, or the polycube where there is none.
+    MeshModel& target() const { return shape != nullptr ? *shape : polycube; }
+};
+
+/// Adds the parameters `polycube` and `shape`. By default these are the current layer and another one with as many
+/// vertices and faces, the polycube being the one that looks along the axes.
+void add_pair(const MeshDocument& document, RichParameterList& parameters);
+
+/// Adds the parameter `lock_selected_faces`, on where faces of such a layer are selected.
+void add_lock(const MeshDocument& document, RichParameterList& parameters);
+
+/// The chosen layers. @throws std::invalid_argument if one has no faces.
+PairLayers chosen_pair(const Call& call);
+
+/// The chosen layers as the core takes them.
+struct PlainPair {
+    /// Holds the selected faces of both layers if they shall be locked.
+    polycube::filter::Pair pair;
+    /// See `Plain`; that of the shape is empty without one.
+    std::vector<std::uint32_t> polycube_cell_of_face;
+    std::vector<std::uint32_t> shape_cell_of_face;
+};
+
+/// Reads the chosen layers: as quadrilaterals where both are such.
+PlainPair read_pair(const Call& call, const PairLayers& layers);
+
+/// Counts before and after for PyMeshLab.
+void add_counts(const polycube::Report& report, host::Values& values);
+
+/// Numbers as scalars of faces.
+template <class Number>
+std::vector<double> as_scalars(const std::vector<Number>& numbers) {
+    return std::vector<double>(numbers.begin(), numbers.end());
+}
+
+/// One colour for each number.
+std::vector<vcg::Color4b> colours_of(const std::vector<std::uint32_t>& numbers);

@@ -1,0 +1,97 @@
+//! What is wrong with a polycube, or the structure of one that is right.
+
+use crate::failure::{Result, guard, numbers};
+use crate::ffi::*;
+use crate::input::Owned;
+use crate::options::tolerance;
+use crate::run::run;
+use polycube::Place;
+use polycube::layout::{Pieces, count};
+use polycube::mesh::{Face, Mesh};
+use polycube::simplify::{Input, read_structure};
+use polycube::structure::{Arrangement, Corner, Edge, Polycube};
+use polycube::validate::{Finding, Subject, validate};
+
+/// Lists the violations of `polycube validate`, or describes the structure.
+pub fn check(input: &InputView, data: &ToleranceData, observer: &Observer) -> Result<CheckedData> {
+    let (owned, tolerance) = guard(|| Ok((Owned::new(input)?, tolerance(data)?)))?;
+    run(observer, |context| {
+        context.stage("structure", 0.0, 1.0).tick(0.0)?;
+        let input = owned.input();
+        let findings = validate(&input, &tolerance);
+        let mut checked = CheckedData { violations: violations(findings, &input), structure: StructureData::default() };
+        if checked.violations.is_empty() {
+            let polycube = read_structure(&input, &tolerance)?;
+            checked.structure = structure(&polycube, input.polycube);
+        }
+        context.tick(1.0)?;
+        Ok(checked)
+    })
+}
+
+fn violations(findings: Vec<Finding>, input: &Input) -> Vec<ViolationData> {
+    let faces = input.polycube.cells.boundary().unwrap_or_default();
+    let violation = |finding: Finding| ViolationData {
+        rule: finding.rule.into(),
+        in_shape: finding.mesh == Subject::Shape,
+        message: finding.message,
+        remedy: finding.remedy,
+        place: place(finding.element),
+        at: finding.at.map_or_else(Vec::new, Vec::from),
+        faces: finding.element.map_or_else(Vec::new, |place| faces_at(place, &faces)),
+    };
+    findings.into_iter().map(violation).collect()
+}
+
+fn place(place: Option<Place>) -> PlaceData {
+    let (element, index, second) = place.map_or((0, 0, 0), numbers);
+    PlaceData { element, index, second }
+}
+
+/// The boundary faces that have all vertices of an element.
+fn faces_at(place: Place, faces: &[Face]) -> Vec<u32> {
+    let with = |vertices: &[u32]| {
+        let has = |f: &Face| vertices.iter().all(|v| f.vertices().contains(v));
+        (0..).zip(faces).filter(|(_, f)| has(f)).map(|(i, _)| i).collect()
+    };
+    match place {
+        Place::Vertex(v) => with(&[v]),
+        Place::Edge(a, b) => with(&[a, b]),
+        Place::Face(i) => vec![i],
+        Place::Cell(_) | Place::PolycubeEdge(_) | Place::Facet(_) | Place::Line(_) => Vec::new(),
+    }
+}
+
+fn structure(polycube: &Polycube, mesh: &Mesh) -> StructureData {
+    let Polycube { structure, placement, chains, deviation, .. } = polycube;
+    let Pieces { patch_of_face, block_of_face } = Pieces::of_faces(polycube, &mesh.points, placement);
+    let levels = structure.levels.iter().zip(placement);
+    let facet = |f: &polycube::structure::Facet| FacetData {
+        label: f.label.index() as i8,
+        level: f.level,
+        loops: f.loops.len() as u32,
+    };
+    StructureData {
+        levels: levels.map(|(l, &coordinate)| LevelData { axis: l.axis as u32, coordinate }).collect(),
+        facets: structure.facets.iter().map(facet).collect(),
+        corners: structure.corners.iter().map(corner).collect(),
+        edges: structure.edges.iter().zip(chains).map(edge).collect(),
+        counts: (&count(&Arrangement::new(structure, placement))).into(),
+        components: structure.components().into_iter().max().map_or(0, |c| c + 1),
+        genus: structure.genus() as u32,
+        deviation_degrees: deviation.degrees,
+        deviation_distance: deviation.distance,
+        label_of_face: polycube.labels().map(|l| l.index() as i8).collect(),
+        facet_of_face: polycube.facet_of_face.clone(),
+        patch_of_face,
+        block_of_face,
+    }
+}
+
+fn corner(&Corner { vertex, valence, levels }: &Corner) -> CornerData {
+    CornerData { vertex, valence, levels }
+}
+
+fn edge((&Edge { axis, corners, facets }, vertices): (&Edge, &Vec<u32>)) -> EdgeData {
+    EdgeData { axis: axis as u32, corners, facets, vertices: vertices.clone() }
+}

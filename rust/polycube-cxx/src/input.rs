@@ -1,0 +1,104 @@
+//! What C++ hands in, checked and made the core's.
+
+use crate::ffi::{InputView, MeshView};
+use polycube::mesh::{CellKind, Cells, Mesh, Point};
+use polycube::simplify::Input;
+use polycube::{Error, ErrorKind, Place, Result};
+
+/// Meshes and labels of a call.
+pub struct Owned {
+    polycube: Mesh,
+    shape: Option<Mesh>,
+    labels: Option<Vec<i8>>,
+}
+
+impl Owned {
+    /// Copies the buffers.
+    ///
+    /// # Errors
+    /// [`ErrorKind::Mesh`] for buffers that are no mesh, [`ErrorKind::Mismatch`] for labels that do not fit.
+    pub fn new(view: &InputView) -> Result<Self> {
+        let polycube = mesh(&view.polycube)?;
+        let shape = view.has_shape.then(|| mesh(&view.shape)).transpose()?;
+        if let Some(shape) = &shape {
+            check_finite(&shape.points)?;
+        }
+        let labels = view.has_labels.then(|| labels(view.labels, &polycube)).transpose()?;
+        Ok(Self { polycube, shape, labels })
+    }
+
+    /// What the core takes.
+    pub fn input(&self) -> Input<'_> {
+        Input { polycube: &self.polycube, shape: self.shape.as_ref(), labels: self.labels.as_deref() }
+    }
+}
+
+/// The mesh in the buffers.
+///
+/// # Errors
+/// [`ErrorKind::Mesh`] for numbers that do not come out even or name vertices that are not there.
+pub fn mesh(view: &MeshView) -> Result<Mesh> {
+    let (points, rest) = view.points.as_chunks::<3>();
+    if !rest.is_empty() {
+        return Err(uneven(format!("{} coordinates are not three a vertex", view.points.len())));
+    }
+    let points: Vec<Point> = points.iter().map(|&p| Point::from(p)).collect();
+    let cells = match kind(view.kind)? {
+        CellKind::Triangles => Cells::Triangles(chunks(view.cells)?),
+        CellKind::Quads => Cells::Quads(chunks(view.cells)?),
+        CellKind::Tetrahedra => Cells::Tetrahedra(chunks(view.cells)?),
+        CellKind::Hexahedra => Cells::Hexahedra(chunks(view.cells)?),
+    };
+    check_indices(&cells, points.len())?;
+    Ok(Mesh { points, cells })
+}
+
+/// The kind numbered `kind`.
+///
+/// # Errors
+/// [`ErrorKind::Unsupported`] for other numbers.
+pub fn kind(kind: u8) -> Result<CellKind> {
+    let found = CellKind::ALL.get(usize::from(kind)).copied();
+    found.ok_or_else(|| Error::new(ErrorKind::Unsupported, format!("there is no cell kind {kind}")))
+}
+
+fn chunks<const N: usize>(cells: &[u32]) -> Result<Vec<[u32; N]>> {
+    let (whole, rest) = cells.as_chunks::<N>();
+    if rest.is_empty() {
+        Ok(whole.to_vec())
+    } else {
+        Err(uneven(format!("{} indices are not {N} a cell", cells.len())))
+    }
+}
+
+fn uneven(message: String) -> Error {
+    Error::new(ErrorKind::Mesh, message).remedy("give whole vertices and cells")
+}
+
+fn check_indices(cells: &Cells, points: usize) -> Result<()> {
+    let bad = (0..cells.len()).find(|&i| cells.cell(i).iter().any(|&v| v as usize >= points));
+    let Some(cell) = bad else { return Ok(()) };
+    Err(Error::new(ErrorKind::Mesh, format!("the cell names a vertex that is not among the {points} given"))
+        .at(Place::Cell(u32::try_from(cell).unwrap_or(u32::MAX)))
+        .remedy("count vertices from 0, and give all of them"))
+}
+
+fn check_finite(points: &[Point]) -> Result<()> {
+    let bad = (0..).zip(points).find(|(_, p)| !p.iter().all(|x| x.is_finite()));
+    let Some((vertex, _)) = bad else { return Ok(()) };
+    Err(Error::new(ErrorKind::Mesh, "a coordinate of the shape is not a finite number").at(Place::Vertex(vertex)))
+}
+
+fn labels(labels: &[i8], mesh: &Mesh) -> Result<Vec<i8>> {
+    let faces = mesh.cells.boundary()?.len();
+    if labels.len() != faces {
+        let message = format!("{} labels for {faces} boundary faces", labels.len());
+        return Err(Error::new(ErrorKind::Mismatch, message).remedy("give one label for each boundary face"));
+    }
+    match (0..).zip(labels).find(|(_, l)| !(-1..=5).contains(*l)) {
+        None => Ok(labels.to_vec()),
+        Some((face, label)) => Err(Error::new(ErrorKind::Option, format!("{label} is no label"))
+            .at(Place::Face(face))
+            .remedy("use 0 to 5 for +X -X +Y -Y +Z -Z, or -1 for \"by the normal\"")),
+    }
+}

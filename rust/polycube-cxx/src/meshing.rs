@@ -1,0 +1,117 @@
+//! `remesh` and what it gives.
+
+use crate::failure::{Result, guard};
+use crate::ffi::*;
+use crate::input::Owned;
+use crate::options::{defaults, options};
+use crate::results::{Simplified, json};
+use crate::run::run;
+use polycube::remesh::{self as core, Hexes, Layout, Quads, RemeshOptions, RemeshReport, Remeshed, Size};
+use polycube::simplify::Input;
+use polycube::{Error, ErrorKind};
+
+/// See `polycube::remesh::remesh`.
+pub fn remesh(input: &InputView, data: &RemeshOptionsData, observer: &Observer) -> Result<RemeshedData> {
+    let (owned, options) = guard(|| {
+        let owned = Owned::new(input)?;
+        let options = remesh_options(data, &owned.input())?;
+        Ok((owned, options))
+    })?;
+    let result = run(observer, |context| core::remesh(&owned.input(), &options, context))?;
+    guard(|| remeshed(result))
+}
+
+fn remesh_options(data: &RemeshOptionsData, input: &Input) -> polycube::Result<RemeshOptions> {
+    Ok(RemeshOptions {
+        simplify: options(&data.simplify, input)?,
+        size: data.has_size.then(|| size(data)).transpose()?,
+        padding: data.padding as usize,
+        surface_only: data.surface_only,
+        max_hausdorff: data.max_hausdorff,
+        ..RemeshOptions::default()
+    })
+}
+
+fn size(data: &RemeshOptionsData) -> polycube::Result<Size> {
+    let bad = |message: String| Err(Error::new(ErrorKind::Option, message));
+    match data.size_kind {
+        0 => Ok(Size::Scale(data.size)),
+        1 => Ok(Size::EdgeLength(data.size)),
+        2 if data.size >= 1.0 && data.size <= f64::from(u32::MAX) => Ok(Size::Hexes(data.size as usize)),
+        2 => bad(format!("{} is no number of hexahedra", data.size)),
+        kind => bad(format!("there is no kind of size number {kind}")),
+    }
+}
+
+fn remeshed(result: Remeshed) -> polycube::Result<RemeshedData> {
+    let Remeshed { simplified, layout, quads, hexes, scaled_jacobian, report } = result;
+    Ok(RemeshedData {
+        simplified: Box::new(Simplified(simplified)),
+        layout: (&layout).into(),
+        quads: quads.into(),
+        has_hexes: hexes.is_some(),
+        hexes: hexes_data(hexes, scaled_jacobian),
+        report_json: json(&report)?,
+        report: (&report).into(),
+    })
+}
+
+impl From<&Layout> for LayoutData {
+    fn from(layout: &Layout) -> Self {
+        Self {
+            blocks: (&layout.blocks).into(),
+            patches: (&layout.patches).into(),
+            patch_label: layout.patch_label.clone(),
+            singular: layout.singular.iter().map(SingularData::from).collect(),
+        }
+    }
+}
+
+impl From<Quads> for QuadsData {
+    fn from(Quads { mesh, label, patch_id, block_id, .. }: Quads) -> Self {
+        Self { mesh: (&mesh).into(), label, patch_id, block_id }
+    }
+}
+
+fn hexes_data(hexes: Option<Hexes>, scaled_jacobian: Vec<f64>) -> HexesData {
+    match hexes {
+        Some(Hexes { mesh, block_id, label, .. }) => {
+            HexesData { mesh: (&mesh).into(), block_id, label, scaled_jacobian }
+        }
+        None => HexesData { mesh: MeshData::empty(), block_id: Vec::new(), label: Vec::new(), scaled_jacobian },
+    }
+}
+
+impl From<&RemeshReport> for RemeshReportData {
+    fn from(report: &RemeshReport) -> Self {
+        Self {
+            quads: report.quads as u64,
+            hexes: report.hexes as u64,
+            hex_blocks: report.hex_blocks as u64,
+            inverted: report.inverted as u64,
+            released: report.released as u64,
+            min_sj: report.min_sj.into(),
+            avg_sj: report.avg_sj.into(),
+            hausdorff: report.hausdorff,
+            hausdorff_percent: report.hausdorff_percent,
+            within_hausdorff: report.within_hausdorff,
+            good: report.is_good(),
+            seconds: report.seconds.total,
+            faults: report.faults(),
+        }
+    }
+}
+
+/// The defaults of the core, for C++ to compare its own with.
+pub fn default_remesh_options() -> RemeshOptionsData {
+    let RemeshOptions { simplify, size, padding, surface_only, max_hausdorff, .. } = RemeshOptions::default();
+    RemeshOptionsData {
+        simplify: defaults(&simplify),
+        has_size: size.is_some(),
+        size_kind: 0,
+        size: 0.0,
+        padding: padding as u32,
+        surface_only,
+        max_hausdorff,
+    }
+}

@@ -1,0 +1,87 @@
+"""Turn a polycube into the coarsest good block structure there is, and mesh its shape with it.
+
+A *polycube* is a mesh whose boundary faces look along the axes; its *shape* is the mesh that it was deformed from, with
+the same vertices and cells. Arrays are numpy arrays, indices count from 0, labels 0 to 5 stand for +X -X +Y -Y +Z -Z.
+
+>>> import polycube
+>>> shape, cube = polycube.example("cube-spikes")
+>>> simple = polycube.simplify(cube, shape)
+>>> simple.counts_before.blocks_padded, simple.counts_after.blocks_padded
+(937, 111)
+>>> meshes = polycube.remesh(shape, cube, hexes=2000)
+>>> meshes.hexes.mesh.write("cube-spikes.vtu")
+"""
+
+from ._native import (
+    EXAMPLES,
+    Counts,
+    Hexes,
+    Job,
+    Layout,
+    Mesh,
+    Quads,
+    Remeshed,
+    Simplified,
+    SingularEdge,
+    Structure,
+    TradeOff,
+    Violation,
+    __version__,
+    check,
+    example,
+    read,
+    read_labels,
+    read_pair,
+    remesh,
+    simplify,
+    structure,
+)
+from .errors import (
+    Cancelled,
+    FileError,
+    Infeasible,
+    InternalError,
+    InvalidMesh,
+    InvalidOption,
+    InvalidPolycube,
+    Mismatch,
+    ParseError,
+    PolycubeError,
+    Unsupported,
+)
+
+__all__ = [
+    "EXAMPLES",
+    "Cancelled",
+    "Counts",
+    "FileError",
+    "Hexes",
+    "Infeasible",
+    "InternalError",
+    "InvalidMesh",
+    "InvalidOption",
+    "InvalidPolycube",
+    "Job",
+    "Layout",
+    "Mesh",
+    "Mismatch",
+    "ParseError",
+    "PolycubeError",
+    "Quads",
+    "Remeshed",
+    "Simplified",
+    "SingularEdge",
+    "Structure",
+    "TradeOff",
+    "Unsupported",
+    "Violation",
+    "__version__",
+    "check",
+    "example",
+    "read",
+    "read_labels",
+    "read_pair",
+    "remesh",
+    "simplify",
+    "structure",
+]

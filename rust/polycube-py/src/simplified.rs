@@ -1,0 +1,285 @@
+//! Simplifying a polycube, and what comes of it.
+
+use crate::arrays::vector;
+use crate::mesh::PyMesh;
+use crate::options::Keywords;
+use crate::report::to_dict;
+use crate::structure::{PyCounts, PyStructure};
+use crate::work::{Failure, Listener};
+use polycube::mesh::Mesh;
+use polycube::simplify::{Input, Options, Simplified, read_structure, simplify as run};
+use polycube::{Context, Error, ErrorKind};
+use pyo3::prelude::*;
+use pyo3::types::PyDict;
+use std::sync::{Arc, OnceLock};
+
+/// What a simplification starts from.
+#[derive(Clone)]
+pub struct Source {
+    /// The polycube.
+    pub polycube: Arc<Mesh>,
+    /// The shape that it was deformed from.
+    pub shape: Option<Arc<Mesh>>,
+    /// Labels of its boundary faces.
+    pub labels: Option<Vec<i8>>,
+    /// Boundary faces whose facets must not move.
+    pub locked: Vec<usize>,
+}
+
+impl Source {
+    /// The arguments that say what is simplified.
+    pub fn new(polycube: &PyMesh, shape: Option<&PyMesh>, keywords: &Keywords<'_>) -> PyResult<Self> {
+        Ok(Self {
+            polycube: Arc::clone(&polycube.0),
+            shape: shape.map(|shape| Arc::clone(&shape.0)),
+            labels: keywords.labels()?,
+            locked: keywords.locked_faces()?,
+        })
+    }
+
+    /// What the library takes.
+    pub fn input(&self) -> Input<'_> {
+        Input { polycube: &self.polycube, shape: self.shape.as_deref(), labels: self.labels.as_deref() }
+    }
+
+    /// The error with its place on the polycube.
+    pub fn failure(&self, error: polycube::Error) -> Failure {
+        Failure::new(error, &self.polycube)
+    }
+
+    /// Adds the facets of the locked faces to those that must not move.
+    pub fn lock(&self, options: &mut Options) -> Result<(), Failure> {
+        if self.locked.is_empty() {
+            return Ok(());
+        }
+        let polycube = read_structure(&self.input(), &options.tolerance).map_err(|e| self.failure(e))?;
+        let faces = polycube.facet_of_face.len();
+        if let Some(face) = self.locked.iter().find(|&&f| f >= faces) {
+            let message = format!("locked_faces names face {face} of {faces}");
+            return Err(Error::new(ErrorKind::Option, message).remedy("give boundary faces from 0 on").into());
+        }
+        options.guides.fix_faces(&polycube, &self.locked);
+        Ok(())
+    }
+
+    fn simplify(self, mut options: Options, context: &Context) -> Result<PySimplified, Failure> {
+        self.lock(&mut options)?;
+        let result = run(&self.input(), &options, context).map_err(|e| self.failure(e))?;
+        Ok(PySimplified::new(result, self))
+    }
+}
+
+/// A trade-off between few blocks and little displacement, met by the search.
+#[pyclass(frozen, module = "polycube", name = "TradeOff", get_all)]
+pub struct PyTradeOff {
+    /// What the objective counts.
+    count: usize,
+    /// Root mean square of the corners' displacement, in units of the polycube.
+    displacement: f64,
+}
+
+#[pymethods]
+impl PyTradeOff {
+    fn __repr__(&self) -> String {
+        format!("TradeOff(count={}, displacement={})", self.count, self.displacement)
+    }
+}
+
+/// A simplified polycube.
+#[pyclass(frozen, module = "polycube", name = "Simplified")]
+#[derive(Clone)]
+pub struct PySimplified(Arc<Parts>);
+
+struct Parts {
+    source: Source,
+    result: Simplified,
+    polycube: Option<PyMesh>,
+    labels: Vec<i8>,
+    structure: OnceLock<PyStructure>,
+}
+
+impl PySimplified {
+    /// Takes the result of simplifying `source`.
+    pub fn new(mut result: Simplified, source: Source) -> Self {
+        let labels = result.input.labels().map(|l| l.index() as i8).collect();
+        let polycube = result.polycube.take().map(PyMesh::from);
+        Self(Arc::new(Parts { source, result, polycube, labels, structure: OnceLock::new() }))
+    }
+}
+
+#[pymethods]
+impl PySimplified {
+    /// The simplified polycube in lattice units, with the vertices and cells of the input; None when it is not valid, which
+    /// only the strategy "naive" can bring about.
+    #[getter]
+    fn polycube(&self) -> Option<PyMesh> {
+        self.0.polycube.clone()
+    }
+
+    /// Whether the result is a valid polycube.
+    #[getter]
+    fn valid(&self) -> bool {
+        self.0.result.report.valid
+    }
+
+    /// Lattice steps per unit of the input.
+    #[getter]
+    fn scale(&self) -> f64 {
+        self.0.result.report.scale
+    }
+
+    /// The label of every boundary face: (f,) int8, 0 to 5 for +X -X +Y -Y +Z -Z.
+    #[getter]
+    fn labels<'py>(slf: &Bound<'py, Self>) -> PyResult<Bound<'py, PyAny>> {
+        vector(slf, |s| &s.0.labels)
+    }
+
+    /// The lattice coordinate of every level, in the order of `structure.levels`: (l,) int64.
+    #[getter]
+    fn levels<'py>(slf: &Bound<'py, Self>) -> PyResult<Bound<'py, PyAny>> {
+        vector(slf, |s| &s.0.result.levels)
+    }
+
+    /// The structure of the input, which the result shares.
+    #[getter]
+    fn structure(&self) -> PyStructure {
+        let Parts { result, source, structure, .. } = &*self.0;
+        structure.get_or_init(|| PyStructure::new(result.input.clone(), &source.polycube)).clone()
+    }
+
+    /// Counts of the input.
+    #[getter]
+    fn counts_before(&self) -> PyCounts {
+        PyCounts(self.0.result.report.before)
+    }
+
+    /// Counts of the result; None when it is not valid.
+    #[getter]
+    fn counts_after(&self) -> Option<PyCounts> {
+        self.0.result.report.after.map(PyCounts)
+    }
+
+    /// The trade-offs that the strategy "best" met, from the fewest blocks to the least displacement.
+    #[getter]
+    fn front(&self) -> Vec<PyTradeOff> {
+        let points = self.0.result.report.front.iter();
+        points.map(|p| PyTradeOff { count: p.count, displacement: p.displacement }).collect()
+    }
+
+    /// What was not possible or not as asked, in plain words.
+    #[getter]
+    fn notes(&self) -> Vec<String> {
+        self.0.result.report.notes.clone()
+    }
+
+    /// What was done, as in the command's report.json: counts, rounds, front, bound, seconds, displacement, distortion,
+    /// flipped elements.
+    #[getter]
+    fn report<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
+        to_dict(py, &self.0.result.report)
+    }
+
+    /// Another point of the same front, from 1, the fewest blocks, to 0, the least displacement: for a slider. Nothing is searched
+    /// again; it takes the time of the morph. As in `simplify`, other threads run and `progress` and `cancel` are heeded.
+    ///
+    /// Raises:
+    ///     InvalidOption: `simplicity` is out of its range, or there is no front: only the strategy "best" makes one.
+    ///     Cancelled: `cancel` was set.
+    #[pyo3(signature = (simplicity, *, progress=None, cancel=None))]
+    fn at<'py>(
+        &self,
+        py: Python<'py>,
+        simplicity: f64,
+        progress: Option<Bound<'py, PyAny>>,
+        cancel: Option<Bound<'py, PyAny>>,
+    ) -> PyResult<Self> {
+        let parts = Arc::clone(&self.0);
+        let task = move |context: &Context| {
+            let Parts { source, result, .. } = &*parts;
+            let moved = result.at(&source.input(), simplicity, context).map_err(|e| source.failure(e))?;
+            Ok(Self::new(moved, source.clone()))
+        };
+        Listener { progress, cancel }.run(py, task)
+    }
+
+    fn __repr__(&self) -> String {
+        let count = |c: polycube::layout::Counts| c.blocks_padded;
+        let report = &self.0.result.report;
+        match report.after {
+            Some(after) => format!("Simplified({} -> {} padded blocks)", count(report.before), count(after)),
+            None => format!("Simplified({} padded blocks -> not valid)", count(report.before)),
+        }
+    }
+}
+
+/// Simplifies a polycube: moves its facets so that corners align and few blocks are left.
+///
+/// Facets, edges and corners stay; the result is a valid polycube on the integer lattice and never has more blocks. The same
+/// input gives the same result, bit by bit. Other Python threads run meanwhile; Ctrl-C cancels.
+///
+/// Args:
+///     polycube: the mesh whose boundary faces look along the axes.
+///     shape: the mesh that it was deformed from, with the same cells; the distortion of the map is measured against it.
+///     labels: (f,) 0 to 5 for each boundary face, -1 for "by the normal". By the normals if not given.
+///     strategy: "best" searches for the fewest blocks; "paper" is Algorithm 1 of the paper; "naive" rounds to the lattice,
+///         which may break the polycube.
+///     scale: lattice steps per unit of the polycube. 1 if its levels are integers, else one step per mean mesh edge.
+///     edge_length: the same as a length: a lattice step in units of the polycube.
+///     objective: what "best" makes small: "blocks_padded" (volumes), "blocks", or "surface_patches" (surfaces).
+///     simplicity: from 1, the fewest blocks, to 0, the least displacement.
+///     max_displacement: the farthest that a corner may move, in units of the polycube.
+///     max_distortion: the largest mean angle distortion, 1 or more, of the map from the shape to the result.
+///     locked_faces: numbers of boundary faces whose facets must not move.
+///     guides: what else to keep: `{"fixed": facets, "together": [facets], "apart": [[facet, facet]], "symmetry":
+///         [{"axis": 0, "at": 0.0}]}`, by the numbers of `structure(polycube)`.
+///     steps: how long "best" searches: moves tried per level in each of four chains.
+///     proof_nodes: how long it tries to prove that its result cannot be beaten.
+///     time_limit: seconds; the search then stops, and the result may differ from run to run.
+///     lambda_min: Algorithm 1 stops before the weight of staying close falls below this; 1 is one round.
+///     solver: "exact" minimum cuts, or "linear" programs, which are slow.
+///     angle_tolerance: largest angle between a face and the nearest axis, in degrees, 0 to 45.
+///     level_tolerance: largest distance of a vertex from the plane of its facet, as a part of the diagonal, 0 to 1.
+///     progress: called on this thread now and then as `progress(stage, fraction)`.
+///     cancel: an object with `is_set()`, such as a `threading.Event`; once it is set, `Cancelled` is raised.
+///
+/// Raises:
+///     InvalidMesh, InvalidPolycube: `check` lists everything that is wrong.
+///     Mismatch: shape or labels do not fit the polycube.
+///     InvalidOption: an option is out of its range.
+///     Infeasible: nothing satisfies the guides.
+///     Cancelled: `cancel` was set.
+///
+/// >>> import polycube
+/// >>> shape, cube = polycube.example("ring", kind="quads")
+/// >>> polycube.simplify(cube, shape, strategy="paper").counts_after.blocks < 200
+/// True
+#[pyfunction]
+#[pyo3(
+    signature = (polycube, shape=None, *, progress=None, cancel=None, **options),
+    text_signature = "(polycube, shape=None, *, labels=None, strategy='best', scale=None, edge_length=None, objective=None, simplicity=1.0, max_displacement=None, max_distortion=None, locked_faces=None, guides=None, steps=400, proof_nodes=200, time_limit=None, lambda_min=0.0, solver='exact', angle_tolerance=30.0, level_tolerance=0.05, progress=None, cancel=None)"
+)]
+pub fn simplify<'py>(
+    py: Python<'py>,
+    polycube: &PyMesh,
+    shape: Option<&PyMesh>,
+    progress: Option<Bound<'py, PyAny>>,
+    cancel: Option<Bound<'py, PyAny>>,
+    options: Option<&Bound<'py, PyDict>>,
+) -> PyResult<PySimplified> {
+    let task = task(py, polycube, shape, options)?;
+    Listener { progress, cancel }.run(py, task)
+}
+
+/// The work that `simplify` and `Job.simplify` do.
+pub fn task(
+    py: Python<'_>,
+    polycube: &PyMesh,
+    shape: Option<&PyMesh>,
+    options: Option<&Bound<'_, PyDict>>,
+) -> PyResult<impl FnOnce(&Context) -> Result<PySimplified, Failure> + Send + 'static> {
+    let keywords = Keywords::new(py, "simplify", options)?;
+    let source = Source::new(polycube, shape, &keywords)?;
+    let options = keywords.simplify()?;
+    keywords.finish()?;
+    Ok(move |context: &Context| source.simplify(options, context))
+}
