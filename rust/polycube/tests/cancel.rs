@@ -1,4 +1,5 @@
 //! Cancelling, at any tick of any stage.
+#![allow(clippy::unwrap_used, reason = "tests fail by panicking")]
 
 use polycube::generate::{Example, example};
 use polycube::mesh::CellKind;
