@@ -107,13 +107,13 @@ pub const MOST_LEVELS: usize = 1022;
 pub fn counter(structure: &Structure) -> Option<Box<dyn Counter>> {
     let axis = row_axis(structure);
     let levels = structure.levels.iter().filter(|l| l.axis == axis).count();
-    let widths: [(usize, fn(&Structure) -> Box<dyn Counter>); 4] = [
-        (Rows::<u64>::capacity(), |s| Box::new(Rows::<u64>::new(s))),
-        (Rows::<u128>::capacity(), |s| Box::new(Rows::<u128>::new(s))),
-        (Rows::<Wide<4>>::capacity(), |s| Box::new(Rows::<Wide<4>>::new(s))),
-        (MOST_LEVELS, |s| Box::new(Rows::<Wide<16>>::new(s))),
-    ];
-    widths.into_iter().find(|(most, _)| levels <= *most).map(|(_, new)| new(structure))
+    Some(match levels {
+        n if n <= Rows::<u64>::capacity() => Box::new(Rows::<u64>::new(structure)),
+        n if n <= Rows::<u128>::capacity() => Box::new(Rows::<u128>::new(structure)),
+        n if n <= Rows::<Wide<4>>::capacity() => Box::new(Rows::<Wide<4>>::new(structure)),
+        n if n <= MOST_LEVELS => Box::new(Rows::<Wide<16>>::new(structure)),
+        _ => return None,
+    })
 }
 
 /// The axis with the fewest levels, along which rows run.
