@@ -100,6 +100,9 @@ impl<R: Word> Counter for Rows<R> {
     }
 }
 
+/// Makes rows of one width.
+type New = fn(&Structure) -> Box<dyn Counter>;
+
 /// The most levels that the axis with the fewest levels can have for [`counter`].
 pub const MOST_LEVELS: usize = 1022;
 
@@ -107,7 +110,7 @@ pub const MOST_LEVELS: usize = 1022;
 pub fn counter(structure: &Structure) -> Option<Box<dyn Counter>> {
     let axis = row_axis(structure);
     let levels = structure.levels.iter().filter(|l| l.axis == axis).count();
-    let widths: [(usize, fn(&Structure) -> Box<dyn Counter>); 4] = [
+    let widths: [(usize, New); 4] = [
         (Rows::<u64>::capacity(), |s| Box::new(Rows::<u64>::new(s))),
         (Rows::<u128>::capacity(), |s| Box::new(Rows::<u128>::new(s))),
         (Rows::<Wide<4>>::capacity(), |s| Box::new(Rows::<Wide<4>>::new(s))),

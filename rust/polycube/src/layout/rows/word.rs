@@ -99,10 +99,10 @@ impl<const N: usize> Shl<usize> for Wide<N> {
     fn shl(self, by: usize) -> Self {
         let (words, bits) = (by / 64, by % 64);
         let mut shifted = [0; N];
-        for i in words..N {
-            shifted[i] = self.0[i - words] << bits;
+        for (i, word) in shifted.iter_mut().enumerate().skip(words) {
+            *word = self.0[i - words] << bits;
             if bits > 0 && i > words {
-                shifted[i] |= self.0[i - words - 1] >> (64 - bits);
+                *word |= self.0[i - words - 1] >> (64 - bits);
             }
         }
         Self(shifted)
