@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
-# Fetches the headers of one MeshLab version (its own and vcglib's) from the source that Debian publishes: no MeshLab has
-# a development package. Needs dpkg and apt, but not root: it keeps apt's state in a folder of its own.
+# Fetches the headers of one MeshLab version (its own and vcglib's) from the source that Debian publishes: no MeshLab
+# has a development package. Needs dpkg and apt, but not root: it keeps apt's state in a folder of its own.
 #
 #   fetch_headers.sh VERSION DIR      VERSION is 2020.09, 2022.02 or 2025.07; DIR gets src/ and vcglib/
 #

@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
-# Makes the pictures of the plugin in docs/: starts MeshLab 2020.09 with it on a screen of its own, and clicks through the
-# menu as a user does.
+# Makes the pictures of the plugin in docs/: starts MeshLab 2020.09 with it on a screen of its own, and clicks through
+# the menu as a user does.
 #
 #   meshlab_plugin/screenshots.sh PREFIX      PREFIX is what shadow_prefix.sh made
 #

@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
-# MeshLab 2020.09 loads plugins from its own folder only. This makes a second MeshLab out of links to the first, with the
-# plugin beside the others, so that nothing needs root.
+# MeshLab 2020.09 loads plugins from its own folder only. This makes a second MeshLab out of links to the first, with
+# the plugin beside the others, so that nothing needs root.
 #
 #   shadow_prefix.sh PLUGIN.so DIR      then start DIR/bin/meshlab
 set -euo pipefail

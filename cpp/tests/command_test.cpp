@@ -50,8 +50,8 @@ TEST_CASE("remesh writes what the command writes") {
     const auto& [polycube, shape] = pair();
     polycube::write_mesh(folder / "p.off", polycube);
     polycube::write_mesh(folder / "s.off", shape);
-    run("remesh " + (folder / "s.off") + " --polycube " + (folder / "p.off") + " --hexes 1500 -q -o " +
-        (folder / "out"));
+    run("remesh " + (folder / "s.off") + " --polycube " + (folder / "p.off") +
+        " --hexes 1500 --max-hausdorff 100 -q -o " + (folder / "out"));
     polycube::RemeshOptions options = coarse();
     options.simplify = {};
     const polycube::Remeshed result = polycube::remesh({polycube, shape}, options);

@@ -12,7 +12,8 @@ class CheckFilter final : public Filter {
     QString name() const override { return "Polycube: Check"; }
     QString python_name() const override { return "compute_polycube_check"; }
     QString help() const override {
-        return "Tells whether the current layer is a polycube: closed, with faces that look along the axes, with corners "
+        return "Tells whether the current layer is a polycube: closed, with faces that look along the axes, with "
+               "corners "
                "and edges like those of boxes, touching itself nowhere. If it is not, the faces that stop it are "
                "selected, and the log says why and what to do. If it is, the log tells its sides, corners and counts.";
     }
@@ -27,8 +28,8 @@ void CheckFilter::add_parameters(const MeshDocument& document, RichParameterList
     const polycube::Tolerance tolerance;
     parameters.addParam(RichFloat("angle_tolerance", Scalarm(tolerance.degrees), "Angle tolerance",
                                   "The largest angle between a face and the nearest axis, in degrees, 0 to 45."));
-    parameters.addParam(host::Percentage("level_tolerance", Scalarm(tolerance.distance * diagonal), 0, Scalarm(diagonal),
-                                         "Level tolerance",
+    parameters.addParam(host::Percentage("level_tolerance", Scalarm(tolerance.distance * diagonal), 0,
+                                         Scalarm(diagonal), "Level tolerance",
                                          "The largest distance of a vertex from the plane of its side."));
 }
 

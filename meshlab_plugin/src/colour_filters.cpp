@@ -42,7 +42,8 @@ class LabelFilter final : public ColourFilter {
     QString python_name() const override { return "set_polycube_color_by_label_per_face"; }
     QString help() const override {
         return "Colours the faces of a polycube, and those of its shape, by the direction they look along on the "
-               "polycube: X red, Y white, Z blue, the negative directions darker. Their scalar is the label, 0 to 5 for "
+               "polycube: X red, Y white, Z blue, the negative directions darker. Their scalar is the label, 0 to 5 "
+               "for "
                "+X -X +Y -Y +Z -Z.";
     }
 

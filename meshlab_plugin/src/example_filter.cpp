@@ -28,8 +28,8 @@ void ExampleFilter::add_parameters(const MeshDocument&, RichParameterList& param
     QStringList names;
     for (const std::string& name : polycube::example_names()) names << QString::fromStdString(name);
     parameters.addParam(RichEnum("example", 0, names, "Example", "Which one to make."));
-    parameters.addParam(RichInt("seed", 1, "Seed",
-                                "How its parts are shifted against each other; 0 leaves them aligned."));
+    parameters.addParam(
+        RichInt("seed", 1, "Seed", "How its parts are shifted against each other; 0 leaves them aligned."));
 }
 
 host::Values ExampleFilter::apply(const Call& call) const {

@@ -14,7 +14,8 @@ class HexFilter final : public Filter {
     QString name() const override { return "Polycube: Hex Remesh to File"; }
     QString python_name() const override { return "generate_polycube_hex_remesh"; }
     QString help() const override {
-        return "Simplifies the polycube of a shape and meshes the solid with hexahedra along the coarse block structure. "
+        return "Simplifies the polycube of a shape and meshes the solid with hexahedra along the coarse block "
+               "structure. "
                "MeshLab holds no volumes, so they go to a file: .vtu or .vtk for ParaView, with scaled Jacobian, block "
                "and label of each cell, or .mesh (MEDIT). Their boundary is shown as a new layer, coloured by block. "
                "The log tells the counts, the least scaled Jacobian, and what was not possible. Ten thousand hexahedra "
@@ -55,7 +56,8 @@ std::string checked_file(const QString& name) {
     const QFileInfo file(name);
     const QString suffix = file.suffix().toLower();
     if (suffix != "vtu" && suffix != "vtk" && suffix != "mesh")
-        throw std::invalid_argument("\"" + name.toStdString() + "\" is no file for hexahedra. Choose a name that ends in "
+        throw std::invalid_argument("\"" + name.toStdString() +
+                                    "\" is no file for hexahedra. Choose a name that ends in "
                                     ".vtu, .vtk or .mesh.");
     if (!file.absoluteDir().exists())
         throw std::invalid_argument("The folder of \"" + name.toStdString() + "\" does not exist. Choose another one.");

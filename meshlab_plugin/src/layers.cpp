@@ -1,12 +1,13 @@
 #include "layers.h"
 
+#include <vcg/complex/allocate.h>
+
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <map>
 #include <optional>
 #include <set>
-#include <vcg/complex/allocate.h>
 
 namespace {
 
@@ -107,7 +108,8 @@ void merge_quads(const std::vector<const CFaceO*>& faces, Plain& plain) {
         const std::uint32_t g = (*other)[f];
         if (g < f) continue;
         const int i = (*faux)[f];
-        std::array<std::uint32_t, 4> quad = {corner(f, i), corner(g, (*faux)[g] + 2), corner(f, i + 1), corner(f, i + 2)};
+        std::array<std::uint32_t, 4> quad = {corner(f, i), corner(g, (*faux)[g] + 2), corner(f, i + 1),
+                                             corner(f, i + 2)};
         std::rotate(quad.begin(), std::min_element(quad.begin(), quad.end()), quad.end());
         plain.mesh.cells.insert(plain.mesh.cells.end(), quad.begin(), quad.end());
         plain.cell_of_face[f] = plain.cell_of_face[g] = next++;
@@ -194,7 +196,7 @@ void copy_faux_edges(const CMeshO& from, CMeshO& to) {
 }
 
 vcg::Color4b colour_of_label(int label) {
-    static const vcg::Color4b colours[6] = {{214, 48, 39, 255},   {158, 30, 26, 255}, {250, 250, 250, 255},
+    static const vcg::Color4b colours[6] = {{214, 48, 39, 255},   {158, 30, 26, 255},  {250, 250, 250, 255},
                                             {196, 196, 196, 255}, {54, 100, 214, 255}, {32, 62, 150, 255}};
     return label >= 0 && label < 6 ? colours[label] : vcg::Color4b(vcg::Color4b::Gray);
 }
@@ -203,7 +205,8 @@ vcg::Color4b colour_of_number(std::uint32_t number) {
     // Steps of the golden section round the circle of hues never come near each other soon.
     const double turns = number * 0.6180339887498949;
     vcg::Color4b colour;
-    colour.SetHSVColor(float(turns - std::floor(turns)), number % 2 == 0 ? 0.45f : 0.65f, number % 3 == 0 ? 0.8f : 0.95f);
+    colour.SetHSVColor(float(turns - std::floor(turns)), number % 2 == 0 ? 0.45f : 0.65f,
+                       number % 3 == 0 ? 0.8f : 0.95f);
     return colour;
 }
 

@@ -66,6 +66,11 @@ int PolycubePlugin::getPreConditions(host::Action* action) const {
 
 int PolycubePlugin::postCondition(host::Action* action) const { return filter(action).changes(); }
 
+void PolycubePlugin::propose(const Filter& filter, const MeshDocument& document, RichParameterList& parameters) {
+    const std::string failure = text_of_failure([&] { filter.add_parameters(document, parameters); });
+    if (!failure.empty()) write_log("Error: " + failure);
+}
+
 host::Values PolycubePlugin::run(const Filter& filter, const RichParameterList& parameters, MeshDocument& document,
                                  vcg::CallBackPos* progress) {
     const polycube::Context context = make_context(progress);
@@ -77,7 +82,7 @@ host::Values PolycubePlugin::run(const Filter& filter, const RichParameterList& 
 void PolycubePlugin::write_log(const std::string& line) { Log(line); }
 
 void PolycubePlugin::initParameterSet(QAction* action, MeshDocument& document, RichParameterList& parameters) {
-    filter(action).add_parameters(document, parameters);
+    propose(filter(action), document, parameters);
 }
 
 bool PolycubePlugin::applyFilter(QAction* action, MeshDocument& document, const RichParameterList& parameters,
@@ -98,7 +103,7 @@ QString PolycubePlugin::pythonFilterName(host::FilterId id) const { return filte
 
 RichParameterList PolycubePlugin::initParameterList(const QAction* action, const MeshDocument& document) {
     RichParameterList parameters;
-    filter(action).add_parameters(document, parameters);
+    propose(filter(action), document, parameters);
     return parameters;
 }
 

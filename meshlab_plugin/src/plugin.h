@@ -1,11 +1,11 @@
 /// @file
-/// The plugin as MeshLab sees it: hands its calls on to the filters and lets no exception out that MeshLab does not catch.
+/// The plugin as MeshLab sees it: hands its calls on to the filters and lets no exception out that MeshLab does not
+/// catch.
 #pragma once
 
 #include <QObject>
 
 #include "filter.h"
-
 
 class PolycubePlugin : public QObject, public host::FilterPlugin {
     Q_OBJECT
@@ -44,6 +44,7 @@ class PolycubePlugin : public QObject, public host::FilterPlugin {
  private:
     const Filter& filter(host::FilterId id) const { return *filters_.at(std::size_t(id)); }
     const Filter& filter(host::Action* action) const { return filter(ID(action)); }
+    void propose(const Filter& filter, const MeshDocument& document, RichParameterList& parameters);
     host::Values run(const Filter& filter, const RichParameterList& parameters, MeshDocument& document,
                      vcg::CallBackPos* progress);
     void write_log(const std::string& line);

@@ -43,7 +43,8 @@ class LayoutFilter final : public Filter {
     QString name() const override { return "Polycube: Coarse Quad Layout"; }
     QString python_name() const override { return "generate_polycube_coarse_quad_layout"; }
     QString help() const override {
-        return "Simplifies the polycube of a shape and gives the coarse layout of the shape's surface: a new layer with "
+        return "Simplifies the polycube of a shape and gives the coarse layout of the shape's surface: a new layer "
+               "with "
                "one quadrilateral for each patch, its corners on the shape, each patch with a colour of its own. Use "
                "<b>Polycube: Quad Remesh</b> for a mesh that follows the shape.";
     }
@@ -79,7 +80,8 @@ class QuadFilter final : public Filter {
     QString python_name() const override { return "generate_polycube_quad_remesh"; }
     QString help() const override {
         return "Simplifies the polycube of a shape and meshes the shape's surface with quadrilaterals along the coarse "
-               "layout. The result is a new layer, coloured by patch; it keeps the quadrilaterals the way MeshLab does, "
+               "layout. The result is a new layer, coloured by patch; it keeps the quadrilaterals the way MeshLab "
+               "does, "
                "as pairs of triangles with a faux edge, and writes them to formats that can hold them. The log tells "
                "the counts, the distance from the shape, and what was not possible.";
     }
@@ -105,7 +107,8 @@ host::Values QuadFilter::apply(const Call& call) const {
     const polycube::filter::Pair pair = read_pair(call, layers).pair;
     polycube::filter::Settings settings;
     settings.options.surface_only = true;
-    settings.options.size = polycube::Size{polycube::Size::Kind::edge_length, call.parameters.getAbsPerc("edge_length")};
+    settings.options.size =
+        polycube::Size{polycube::Size::Kind::edge_length, call.parameters.getAbsPerc("edge_length")};
     const polycube::filter::RemeshedPair result = polycube::filter::remesh(pair, settings, call.context);
     add_quad_layer(call, layers, result.result.quads.mesh, result.result.quads.patch_id, " quads");
     call.log_all(result.log);

@@ -24,14 +24,16 @@ class SimplifyFilter final : public Filter {
 
 void SimplifyFilter::add_parameters(const MeshDocument& document, RichParameterList& parameters) const {
     add_pair(document, parameters);
-    parameters.addParam(RichEnum("strategy", 0, {"Best", "Paper", "Rounding"}, "Strategy",
-                                 "Best searches for the fewest; Paper aligns corners round by round as published; "
-                                 "Rounding moves every side to the nearest lattice plane, which may break the polycube."));
+    parameters.addParam(
+        RichEnum("strategy", 0, {"Best", "Paper", "Rounding"}, "Strategy",
+                 "Best searches for the fewest; Paper aligns corners round by round as published; "
+                 "Rounding moves every side to the nearest lattice plane, which may break the polycube."));
     parameters.addParam(RichEnum("objective", 0, {"Surface patches", "Blocks", "Blocks with padding"}, "Make few",
                                  "What Best makes few: quadrilateral patches of the surface, blocks of the solid, or "
                                  "blocks once a layer of hexahedra lies around the solid."));
-    parameters.addParam(RichDynamicFloat("simplicity", 1, 0, 1, "Simplicity",
-                                         "From 1, the fewest that Best finds, to 0, the least change of the polycube."));
+    parameters.addParam(
+        RichDynamicFloat("simplicity", 1, 0, 1, "Simplicity",
+                         "From 1, the fewest that Best finds, to 0, the least change of the polycube."));
     const double diagonal = document.mm() != nullptr ? document.mm()->cm.bbox.Diag() : 1.0;
     parameters.addParam(host::Percentage("lattice_step", 0, 0, diagonal, "Lattice step (0 is automatic)",
                                          "The length of a lattice step. Automatic: 1 if all sides of the polycube lie "

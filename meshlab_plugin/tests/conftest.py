@@ -14,6 +14,9 @@ import numpy
 import pytest
 
 
+ROOT = Path(__file__).resolve().parents[2]
+
+
 def required(name):
     if name not in os.environ:
         pytest.skip(f"{name} is not set")

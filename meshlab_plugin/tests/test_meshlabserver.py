@@ -55,7 +55,8 @@ def scalar_choice(value=0):
 
 
 def layout(polycube=0, shape=1):
-    return "Polycube: Coarse Quad Layout", [*layers(polycube, shape), boolean("lock_selected_faces", False), scalar_choice()]
+    lock = boolean("lock_selected_faces", False)
+    return "Polycube: Coarse Quad Layout", [*layers(polycube, shape), lock, scalar_choice()]
 
 
 def quads(polycube=0, shape=1, edge=2):
@@ -115,7 +116,8 @@ def server(tmp_path):
             arguments += ["-i", mesh.write(tmp_path / f"in{number}.off")]
         arguments += ["-s", script, "-o", tmp_path / "out.ply", "-m", "fc", "fq", "ff"]
         screen = ["xvfb-run", "-a", "-s", "-screen 0 800x600x24"]
-        done = subprocess.run([*screen, *map(str, arguments)], capture_output=True, text=True, timeout=300, cwd=tmp_path)
+        arguments = [*screen, *map(str, arguments)]
+        done = subprocess.run(arguments, capture_output=True, text=True, timeout=300, cwd=tmp_path)
         record = tmp_path / "log.txt"
         text = record.read_text() if record.exists() else ""
         return Done(done.returncode, done.stdout + done.stderr + text, tmp_path)

@@ -1,4 +1,4 @@
-"""What the plugin for the program MeshLab 2025.07 must be to be loaded there; the program itself is not in Debian 12."""
+"""What the plugin for the program MeshLab 2025.07 must be to be loaded; the program itself is not in Debian 12."""
 
 import re
 import subprocess

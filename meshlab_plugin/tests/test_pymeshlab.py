@@ -1,8 +1,10 @@
 """The plugin in PyMeshLab: every filter, every way it can fail, and the same results as the command."""
 
+import json
+
 import numpy
 import pytest
-from conftest import Mesh, required
+from conftest import ROOT, Mesh, required
 
 ml = pytest.importorskip("pymeshlab")
 
@@ -39,7 +41,7 @@ def snapshot(layers):
     """All that a filter might have changed."""
     ids = [layers.mesh(i) for i in range(layers.mesh_number())]
     return layers.current_mesh_id(), [
-        (m.label(), m.is_visible(), m.vertex_matrix().tolist(), m.face_matrix().tolist(), m.face_selection_array().tolist())
+        (m.label(), m.is_visible(), *(a.tolist() for a in (m.vertex_matrix(), m.face_matrix(), m.face_selection_array())))
         for m in ids
     ]
 
@@ -109,8 +111,6 @@ def test_simplify_gives_what_the_command_gives(pair, command, tmp_path, strategy
 
 
 def counts_of(report):
-    import json
-
     report = json.loads(report.read_text())
     return [report["before"]["surface_patches"], report["after"]["surface_patches"], report["after"]["blocks"]]
 
@@ -153,7 +153,8 @@ def test_the_pair_is_found_whichever_layer_is_current(pair):
     assert (layers.current_mesh().vertex_matrix() == result(pair)).all()
 
 
-def test_selected_faces_stay_where_they_are(pair):
+@pytest.mark.parametrize("layer", ["shape", "polycube"])
+def test_selected_faces_stay_where_they_are(pair, layer):
     polycube = pair[0]
     corners = polycube.points[numpy.array(polycube.faces)]
     flat = corners.max(axis=1) - corners.min(axis=1) < 1e-6
@@ -167,6 +168,7 @@ def test_selected_faces_stay_where_they_are(pair):
     face = max(moved, key=moved.get)
     assert moved[face] > 1, "without a lock, this side moves"
     layers = document(*reversed(pair))
+    layers.set_current_mesh(["shape", "polycube"].index(layer))
     layers.compute_selection_by_condition_per_face(condselect=f"(fi == {face})")
     values = layers.apply_filter("generate_polycube_simplified", lattice_units=True)
     assert values["locked_faces"] == 1, "a selection is used without asking"
@@ -204,7 +206,8 @@ def test_quads_are_kept_with_faux_edges(pair, tmp_path):
 
 def test_quads_have_patches_and_quality(pair):
     layers = document(*pair)
-    values = layers.apply_filter("generate_polycube_quad_remesh", edge_length=ml.PureValue(4.0), face_scalar="Scaled Jacobian")
+    parameters = {"edge_length": ml.PureValue(4.0), "face_scalar": "Scaled Jacobian"}
+    values = layers.apply_filter("generate_polycube_quad_remesh", **parameters)
     mesh = layers.current_mesh()
     quality = mesh.face_scalar_array()
     assert (quality == mesh.face_custom_scalar_attribute_array("scaled_jacobian")).all()
@@ -300,6 +303,26 @@ def test_one_layer_is_enough(pair):
     layers = document(pair[0])
     values = layers.apply_filter("generate_polycube_simplified")
     assert values["surface_patches_after"] == 78 and layers.mesh_number() == 2
+    layers.apply_filter("generate_polycube_quad_remesh", polycube=0, shape=0, edge_length=ml.PureValue(4.0))
+    corners = layers.current_mesh().vertex_matrix()
+    distance = numpy.abs(corners).max(axis=0) - numpy.abs(pair[0].points).max(axis=0)
+    assert numpy.abs(distance).max() < 1e-6, "without a shape, the polycube is meshed"
+
+
+def test_a_real_polycube_gives_what_the_command_gives(command, tmp_path):
+    folder = ROOT / "../shared/data"
+    names = [folder / f"marco2016sgp-block.{name}.obj" for name in ("shape", "polycube")]
+    if not names[1].exists():
+        pytest.skip("the real polycubes are not there")
+    out = command(tmp_path / "out", "simplify", names[1], "--shape", names[0])
+    layers = ml.MeshSet()
+    for name in names:
+        layers.load_new_mesh(str(name))
+    values = layers.apply_filter("generate_polycube_simplified", lattice_units=True)
+    found = [values["surface_patches_before"], values["surface_patches_after"], values["blocks_after"]]
+    assert found == counts_of(out / "report.json")
+    expected = Mesh.read(out / "polycube.obj").points
+    assert numpy.abs(layers.current_mesh().vertex_matrix() - expected).max() < 1e-3
 
 
 PAIR_FILTERS = sorted(f for f in FILTERS if f not in ("compute_polycube_check", "create_polycube_example"))

@@ -112,6 +112,12 @@ fn within(text: &str, range: std::ops::RangeInclusive<f64>) -> Result<f64, Strin
     found.ok_or_else(|| format!("expected a number from {} to {}", range.start(), range.end()))
 }
 
+/// A number of 1 or more.
+pub fn at_least_one(text: &str) -> Result<f64, String> {
+    let found = text.parse().ok().filter(|x: &f64| x.is_finite() && *x >= 1.0);
+    found.ok_or_else(|| "expected a number of 1 or more".to_owned())
+}
+
 /// A number above 0.
 pub fn positive(text: &str) -> Result<f64, String> {
     let found = text.parse().ok().filter(|x: &f64| x.is_normal() && *x > 0.0);

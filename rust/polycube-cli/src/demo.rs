@@ -74,7 +74,7 @@ pub fn run(args: &Args) -> Result<ExitCode> {
     let folder = args.output.join("examples");
     write_examples(args.seed, &folder, &progress.context.stage("examples", 0.0, 0.5))?;
     let job = job(args, &folder);
-    let result = simplify::work(&job, &progress.context.stage("simplify", 0.5, 1.0))?;
+    let simplify::Done { result, .. } = simplify::work(&job, &progress.context.stage("simplify", 0.5, 1.0))?;
     drop(progress);
     if !args.quiet {
         let text = format!(
@@ -126,6 +126,9 @@ fn job(args: &Args, folder: &Path) -> simplify::Args {
         time_limit: None,
         simplicity: 1.0,
         max_displacement: None,
+        max_distortion: None,
+        guides: None,
+        pareto: false,
         solver: SolverArg::default(),
         format: None,
         quiet: args.quiet,

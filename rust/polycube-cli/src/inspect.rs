@@ -23,6 +23,22 @@ pub struct Args {
     /// Print JSON
     #[arg(long)]
     json: bool,
+
+    /// List the facets by the numbers that `simplify --guides` and structure.json use
+    #[arg(long)]
+    facets: bool,
+}
+
+/// A facet.
+#[derive(Debug, Serialize)]
+struct FacetRow {
+    facet: usize,
+    label: String,
+    /// Its coordinate along its axis, in units of the mesh.
+    at: f64,
+    corners: usize,
+    /// Its first boundary face.
+    face: usize,
 }
 
 /// What was found.
@@ -51,6 +67,8 @@ struct Found {
     /// How far the mesh is from an exact polycube.
     deviation: Deviation,
     counts: Counts,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    facet_list: Option<Vec<FacetRow>>,
 }
 
 /// Prints what was found.
@@ -58,7 +76,8 @@ pub fn run(args: &Args) -> Result<ExitCode> {
     let file = &args.mesh.polycube;
     let meshes = MeshFiles::read(file, None, args.mesh.labels.as_deref())?;
     let polycube = read_structure(&meshes.input(), &args.mesh.tolerance.get()).map_err(Failure::in_file(file))?;
-    let found = Found::new(file.display().to_string(), &meshes.polycube, &polycube);
+    let mut found = Found::new(file.display().to_string(), &meshes.polycube, &polycube);
+    found.facet_list = args.facets.then(|| facets(&polycube));
     if args.json {
         terminal::print_json(&found)?
     } else {
@@ -88,6 +107,7 @@ impl Found {
             shortest_edge: structure.shortest_edge(&polycube.placement),
             deviation: polycube.deviation,
             counts: count(&Arrangement::new(structure, &polycube.placement)),
+            facet_list: None,
         }
     }
 
@@ -96,7 +116,16 @@ impl Found {
         for (name, value) in self.rows() {
             text += &format!("{name:21}{value}\n");
         }
-        text + "\n" + &table::table(["counts", ""], table::counts(&self.counts).map(|(n, x)| [n.into(), x.to_string()]))
+        text += "\n";
+        text += &table::table(["counts", ""], table::counts(&self.counts).map(|(n, x)| [n.into(), x.to_string()]));
+        if let Some(facets) = &self.facet_list {
+            let row = |f: &FacetRow| {
+                [f.facet.to_string(), f.label.clone(), short(f.at), f.corners.to_string(), f.face.to_string()]
+            };
+            text += "\n";
+            text += &table::table(["facet", "label", "at", "corners", "first face"], facets.iter().map(row));
+        }
+        text
     }
 
     fn rows(&self) -> Vec<(&'static str, String)> {
@@ -124,6 +153,18 @@ impl Found {
     fn valences(&self) -> String {
         list(self.corners_by_valence.iter().map(|(valence, n)| format!("{n} of valence {valence}")))
     }
+}
+
+/// The facets in the order of their numbers.
+fn facets(polycube: &Polycube) -> Vec<FacetRow> {
+    let row = |(facet, f): (usize, &polycube::structure::Facet)| FacetRow {
+        facet,
+        label: f.label.to_string(),
+        at: polycube.placement[f.level as usize],
+        corners: f.sides().count(),
+        face: polycube.facet_of_face.iter().position(|&g| g as usize == facet).unwrap_or(0),
+    };
+    polycube.structure.facets.iter().enumerate().map(row).collect()
 }
 
 /// The names of the labels, in their order.

@@ -20,11 +20,16 @@ impl Output {
     /// # Errors
     /// [`ErrorKind::Io`] naming the folder.
     pub fn new(folder: &Path) -> Result<Self> {
-        let ancestors: Vec<&Path> = folder.ancestors().filter(|p| !p.as_os_str().is_empty()).collect();
-        let made = ancestors.into_iter().rev().filter(|p| !p.exists()).map(Path::to_owned).collect();
-        let output = Self { folder: folder.to_owned(), made, files: Vec::new() };
-        fs::create_dir_all(folder).map_err(|e| failed("create the folder", folder, &e))?;
+        let mut output = Self { folder: folder.to_owned(), made: Vec::new(), files: Vec::new() };
+        output.make(folder)?;
         Ok(output)
+    }
+
+    /// Makes a folder with all that it lies in.
+    fn make(&mut self, folder: &Path) -> Result<()> {
+        let ancestors: Vec<&Path> = folder.ancestors().filter(|p| !p.as_os_str().is_empty()).collect();
+        self.made.extend(ancestors.into_iter().rev().filter(|p| !p.exists()).map(Path::to_owned));
+        fs::create_dir_all(folder).map_err(|e| failed("create the folder", folder, &e))
     }
 
     /// Where the file `name` will be.
@@ -32,7 +37,7 @@ impl Output {
         self.folder.join(name)
     }
 
-    /// Writes a file to the disk under a temporary name.
+    /// Writes a file to the disk under a temporary name; `name` may begin with the names of folders.
     ///
     /// # Errors
     /// [`ErrorKind::Io`] naming the file; the folder is then as it was before.
@@ -40,6 +45,9 @@ impl Output {
         let path = self.path(name);
         if path.is_dir() {
             return Err(failed("write", &path, &io::ErrorKind::IsADirectory.into()));
+        }
+        if let Some(parent) = path.parent() {
+            self.make(parent)?;
         }
         let file = self.stage(bytes).map_err(|e| failed("write", &path, &e))?;
         self.files.push((path, file));

@@ -74,7 +74,7 @@ pub struct Args {
     #[arg(long, value_enum, default_value_t)]
     pub strategy: StrategyArg,
 
-    /// The farthest that `best` may move a corner, in units of the polycube [default: a twelfth of its diagonal]
+    /// The farthest that `best` may move a corner, in units of the polycube [default: a twelfth of its diagonal, less where that makes poor hexahedra]
     #[arg(long, value_name = "D", value_parser = positive)]
     pub max_displacement: Option<f64>,
 

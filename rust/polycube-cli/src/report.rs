@@ -1,5 +1,6 @@
 //! What `simplify` writes beside the mesh: `report.json` and `structure.json`.
 
+use crate::pareto::Point;
 use polycube::align::{Effort, Guides, SolverKind};
 use polycube::layout::Objective;
 use polycube::remesh::{RemeshOptions, RemeshReport, Size};
@@ -30,6 +31,9 @@ pub struct RunReport<'a> {
     /// What was done.
     #[serde(flatten)]
     pub report: &'a Report,
+    /// The points of the front, measured, with `--pareto`.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub pareto: Option<&'a [Point]>,
     /// Where a naive rounding broke the polycube.
     pub broken: &'a [Broken],
 }

@@ -1,15 +1,16 @@
 //! `polycube simplify`.
 
-use crate::args::{PolycubeArgs, fraction, positive};
+use crate::args::{PolycubeArgs, at_least_one, fraction, positive};
 use crate::failure::{Failure, INVALID, Result};
 use crate::mesh_files::MeshFiles;
 use crate::output::Output;
+use crate::pareto::Point;
 use crate::progress::Progress;
 use crate::report::{self, Files, RunReport, StructureFile};
-use crate::{table, terminal};
+use crate::{guides, pareto, table, terminal};
 use clap::ValueHint;
 use clap::builder::PossibleValue;
-use polycube::align::{Effort, SolverKind, Strategy};
+use polycube::align::{Effort, Guides, SolverKind, Strategy};
 use polycube::layout::Objective;
 use polycube::mesh::{self, Format};
 use polycube::simplify::{Options, Simplified};
@@ -24,6 +25,7 @@ In the output folder:
   polycube.labels the label of each of its boundary faces, one a line, for --labels
   structure.json  levels, corners, edges and facets, before and after
   report.json     options, counts, rounds, times, displacement, distortion, flipped elements
+  front/          with --pareto: the mesh of every point of the front
 They appear together when all is done, or not at all. With `--strategy naive` and a result that is
 not valid, the two reports say what broke, there is no polycube, and the exit code is 3.
 `polycube --help` lists the exit codes.";
@@ -69,7 +71,7 @@ pub struct Args {
     #[arg(long, value_enum)]
     pub objective: Option<ObjectiveArg>,
 
-    /// How long `best` searches: moves tried per level of the polycube in each of its four chains
+    /// How long `best` searches: moves tried per level of the polycube in each of its eight chains
     #[arg(long, value_name = "N", default_value_t = Effort::default().steps_per_level)]
     pub steps: u32,
 
@@ -80,6 +82,20 @@ pub struct Args {
     /// The farthest that `best` may move a corner, in units of the polycube [default: no limit]
     #[arg(long, value_name = "D", value_parser = positive)]
     pub max_displacement: Option<f64>,
+
+    /// The largest mean angle distortion of the map from the shape that a result of `best` may have, 1 or more; of the
+    /// results that keep it the one with the fewest blocks is taken [default: no limit]
+    #[arg(long, value_name = "D", value_parser = at_least_one)]
+    pub max_distortion: Option<f64>,
+
+    /// Facets that must not move, that must or must not align, and planes of symmetry to keep: a JSON file, see README.md
+    #[arg(long, value_name = "FILE", value_hint = ValueHint::FilePath)]
+    pub guides: Option<PathBuf>,
+
+    /// Measure every point between the fewest blocks and the least displacement that `best` found, and write their
+    /// meshes to the folder `front` in the output folder
+    #[arg(long)]
+    pub pareto: bool,
 
     /// How long `best` tries to prove that its result cannot be beaten: partial orders looked at
     #[arg(long, value_name = "N", default_value_t = Effort::default().proof_nodes)]
@@ -183,8 +199,8 @@ impl Args {
             },
             simplicity: Some(self.simplicity),
             max_displacement: self.max_displacement,
-            max_distortion: None,
-            guides: polycube::align::Guides::default(),
+            max_distortion: self.max_distortion,
+            guides: Guides::default(),
             tolerance: self.mesh.tolerance.get(),
         }
     }
@@ -202,12 +218,13 @@ impl Args {
 /// Runs the subcommand.
 pub fn run(args: &Args) -> Result<ExitCode> {
     let progress = Progress::start(args.quiet)?;
-    let result = work(args, &progress.context)?;
+    let Done { result, points } = work(args, &progress.context)?;
     drop(progress);
     let valid = result.report.valid;
     if !args.quiet {
         let place = format!("written to {}\n", args.output.display());
-        terminal::print(&(table::summary(&result.report) + &place))?;
+        let front = if points.is_empty() { String::new() } else { format!("\n{}", pareto::to_table(&points)) };
+        terminal::print(&(table::summary(&result.report) + &front + &place))?;
     }
     if valid {
         return Ok(ExitCode::SUCCESS);
@@ -219,21 +236,36 @@ pub fn run(args: &Args) -> Result<ExitCode> {
     Ok(ExitCode::from(INVALID))
 }
 
+/// What a run made.
+pub struct Done {
+    /// The result.
+    pub result: Simplified,
+    /// The points of its front, if they were asked for.
+    points: Vec<Point>,
+}
+
 /// Reads, simplifies, writes.
-pub fn work(args: &Args, context: &Context) -> Result<Simplified> {
+pub fn work(args: &Args, context: &Context) -> Result<Done> {
     let start = Instant::now();
     context.stage("read", 0.0, 0.1).tick(0.0)?;
     let meshes = MeshFiles::read(&args.mesh.polycube, args.shape.as_deref(), args.mesh.labels.as_deref())?;
     let format = output_format(args, &meshes)?;
     let read = start.elapsed().as_secs_f64();
-    let middle = context.stage("read", 0.1, 0.9);
+    let middle = context.stage("read", 0.1, if args.pareto { 0.5 } else { 0.9 });
     let about = Failure::in_file(&args.mesh.polycube);
-    let mut result = polycube::simplify::simplify(&meshes.input(), &args.options(), &middle).map_err(about)?;
+    let (input, mut options) = (meshes.input(), args.options());
+    if let Some(file) = &args.guides {
+        options.guides = guides::read(file, &args.mesh.polycube, &input, &options.tolerance)?;
+    }
+    let mut result = polycube::simplify::simplify(&input, &options, &middle).map_err(about)?;
+    let front = context.stage("front", 0.5, 0.9);
+    let others = if args.pareto { result.pareto(&input, &front)? } else { Vec::new() };
     let done = start.elapsed().as_secs_f64();
     result.report.seconds.read = read;
-    write(args, &mut result, format, &context.stage("write", 0.9, 1.0), || start.elapsed().as_secs_f64() - done)?;
+    let elapsed = || start.elapsed().as_secs_f64() - done;
+    let points = write(args, (&mut result, &others), format, &context.stage("write", 0.9, 1.0), elapsed)?;
     result.report.seconds.total = start.elapsed().as_secs_f64();
-    Ok(result)
+    Ok(Done { result, points })
 }
 
 /// The format of the result, once it is known that it can hold the mesh.
@@ -252,11 +284,11 @@ fn output_format(args: &Args, meshes: &MeshFiles) -> Result<Format> {
 /// Writes the mesh, then the reports, which know how long that took, and then gives all of them their names.
 fn write(
     args: &Args,
-    result: &mut Simplified,
+    (result, others): (&mut Simplified, &[Simplified]),
     format: Format,
     context: &Context,
     elapsed: impl Fn() -> f64,
-) -> Result<()> {
+) -> Result<Vec<Point>> {
     context.tick(0.0)?;
     let mut output = Output::new(&args.output)?;
     let name = format!("polycube.{format}");
@@ -265,6 +297,8 @@ fn write(
         let labels: String = result.input.labels().map(|l| format!("{}\n", l.index())).collect();
         output.add(LABELS, labels.as_bytes())?;
     }
+    let points = pareto::points(others, result.report.chosen, format);
+    pareto::add(&mut output, &points, others, format)?;
     let broken = report::broken(result);
     output.add("structure.json", terminal::to_json(&StructureFile::new(result, &broken))?.as_bytes())?;
     let seconds = &mut result.report.seconds;
@@ -272,10 +306,16 @@ fn write(
     seconds.total += seconds.read + seconds.write;
     let files = args.files();
     let valid = result.polycube.is_some();
-    let options = args.options().into();
+    let options = result.options.clone().into();
     let output_name = valid.then_some(name.as_str());
-    let run = RunReport { input: &files, options, output: output_name, report: &result.report, broken: &broken };
+    let pareto = args.pareto.then_some(points.as_slice());
+    let run =
+        RunReport { input: &files, options, output: output_name, report: &result.report, pareto, broken: &broken };
     output.add("report.json", terminal::to_json(&run)?.as_bytes())?;
-    let stale = if valid { Vec::new() } else { vec![output.path(&name), output.path(LABELS)] };
-    Ok(output.publish(&stale, context)?)
+    let mut stale = pareto::stale(&args.output);
+    if !valid {
+        stale.extend([output.path(&name), output.path(LABELS)]);
+    }
+    output.publish(&stale, context)?;
+    Ok(points)
 }

@@ -342,7 +342,7 @@ impl PyRemeshed {
     }
 
     /// What was done and how good it is, as in the command's report.json: that of `Simplified`, and hexes, quads, inverted,
-    /// inverted_cells, min_sj, avg_sj, histogram, volume, hausdorff, remesh_seconds.
+    /// inverted_cells, min_sj, avg_sj, histogram, volume, hausdorff; seconds has all stages.
     #[getter]
     fn report<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
         to_dict(py, &self.0.report)

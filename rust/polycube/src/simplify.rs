@@ -219,8 +219,14 @@ fn is_none(seconds: &f64) -> bool {
 /// The first violation, with the number of others, as [`ErrorKind::Mesh`] or [`ErrorKind::Polycube`];
 /// [`ErrorKind::Mismatch`] if shape or labels do not fit.
 pub fn read_structure(input: &Input, tolerance: &Tolerance) -> Result<Polycube> {
+    read_in_steps(input, tolerance, &Context::default())
+}
+
+fn read_in_steps(input: &Input, tolerance: &Tolerance, context: &Context) -> Result<Polycube> {
+    context.tick(0.0)?;
     check_fit(input)?;
     let polycube = Polycube::new(input.polycube, input.labels, tolerance).map_err(first_of)?;
+    context.tick(0.9)?;
     match polycube.overlaps(&input.polycube.points) {
         overlaps if overlaps.is_empty() => Ok(polycube),
         overlaps => Err(first_of(overlaps)),
@@ -234,8 +240,7 @@ pub fn read_structure(input: &Input, tolerance: &Tolerance) -> Result<Polycube> 
 /// See [`read_structure`] and [`align::align`]; [`ErrorKind::Cancelled`].
 pub fn simplify(input: &Input, options: &Options, context: &Context) -> Result<Simplified> {
     let start = Instant::now();
-    context.stage("structure", 0.0, 0.1).tick(0.0)?;
-    let polycube = read_structure(input, &options.tolerance)?;
+    let polycube = read_in_steps(input, &options.tolerance, &context.stage("structure", 0.0, 0.1))?;
     let scale = options.scale.unwrap_or_else(|| default_scale(&polycube, input.polycube));
     let structured = start.elapsed().as_secs_f64();
     let settings = options.alignment(scale, input.polycube);
@@ -244,7 +249,7 @@ pub fn simplify(input: &Input, options: &Options, context: &Context) -> Result<S
     let aligned = start.elapsed().as_secs_f64();
     let mut report = Report::new(&polycube, &alignment, options.strategy, scale);
     if options.strategy == Strategy::Best && alignment.bound.is_none() {
-        let note = "the result is that of Algorithm 1: there are more than 126 levels on every axis, too many to search, or \
+        let note = "the result is that of Algorithm 1: there are more than 1022 levels on every axis, too many to search, or \
                     fewer patches would have meant more blocks";
         report.notes.push(note.into());
     }
@@ -309,8 +314,8 @@ fn finish(
     let mut result = None;
     if report.valid {
         let placement: Vec<f64> = levels.iter().map(|&x| x as f64).collect();
-        let mesh = fit(&polycube, input.polycube, &placement, report.scale, context)?;
-        judge(&mut report, input, &polycube, &mesh)?;
+        let mesh = fit(&polycube, input.polycube, &placement, report.scale, &context.stage("morph", 0.0, 0.9))?;
+        judge(&mut report, input, &polycube, &mesh, &context.stage("judge", 0.9, 1.0))?;
         result = Some(mesh);
     }
     Ok(Simplified { input: polycube, polycube: result, levels, report, options: options.clone() })
@@ -389,8 +394,13 @@ fn max_displacement(polycube: &Polycube, levels: &[i64], scale: f64) -> f64 {
 }
 
 /// Counts what the morph turned over and measures the map before and after.
-fn judge(report: &mut Report, input: &Input, polycube: &Polycube, mesh: &Mesh) -> Result<()> {
+fn judge(report: &mut Report, input: &Input, polycube: &Polycube, mesh: &Mesh, context: &Context) -> Result<()> {
     let from = input.shape.unwrap_or(input.polycube);
-    report.distortion = Some([distortion(from, input.polycube)?, distortion(from, mesh)?]);
-    report.list_flipped(polycube, mesh)
+    let before = distortion(from, input.polycube)?;
+    context.tick(0.3)?;
+    let after = distortion(from, mesh)?;
+    context.tick(0.6)?;
+    report.distortion = Some([before, after]);
+    report.list_flipped(polycube, mesh)?;
+    context.tick(1.0)
 }

@@ -5,7 +5,7 @@ mod common;
 use common::{cases, coarse, data, dense, read};
 use polycube::Context;
 use polycube::align::{Alignment, Effort, Options, Strategy, align};
-use polycube::generate::{Example, example, random_polycube};
+use polycube::generate::{Cuboid, Example, Voxels, example, random_polycube, random_with_corners};
 use polycube::layout::Objective;
 use polycube::mesh::CellKind;
 use polycube::structure::{Polycube, Tolerance};
@@ -94,4 +94,48 @@ fn real_polycubes_get_as_coarse_as_asked() {
         assert!(counted(&best, Objective::BlocksPadded) <= most, "{name}: {:?}", best.after);
         assert_eq!(dense::check(&polycube.structure, &best.levels), Ok(()));
     }
+}
+
+/// Moves the boxes of two random polycubes far from each other.
+fn two_solids(seed: u64) -> [Polycube; 3] {
+    let [one, two] = [seed, seed + 1000].map(|s| random_polycube(s, 4, 9).expect("boxes fit"));
+    let boxes = |voxels: &Voxels, by: i64| -> Vec<Cuboid> {
+        let at = |c: [usize; 3]| -> [i64; 3] { std::array::from_fn(|a| voxels.planes(a)[c[a]] as i64) };
+        voxels.cells().map(|c| Cuboid::new(at(c), at(c.map(|x| x + 1))).moved([by, by / 7, 0])).collect()
+    };
+    let both = [boxes(&one, 0), boxes(&two, 40)];
+    let solid = |boxes: &[Cuboid]| read(&coarse(&Voxels::from_boxes(boxes).expect("boxes fit"), CellKind::Quads));
+    [solid(&both[0]), solid(&both[1]), solid(&both.concat())]
+}
+
+#[test]
+fn solids_that_never_meet_count_as_much_together_as_alone() {
+    let effort = Effort { steps_per_level: 50, ..Effort::default() };
+    let options = Options { effort, ..Options::default() };
+    for seed in 0..cases(40) {
+        let polycubes = two_solids(seed);
+        let [one, two, both] = polycubes.each_ref().map(|p| run(p, &options));
+        let [a, b, sum] = [&one, &two, &both].map(|r| counted(r, Objective::BlocksPadded));
+        assert_eq!(sum, a + b, "seed {seed}");
+        let bound = |r: &Alignment| r.bound.map_or(0, |b| b.count);
+        assert_eq!(bound(&both), bound(&one) + bound(&two), "seed {seed}");
+        assert_eq!(dense::check(&polycubes[2].structure, &both.levels), Ok(()));
+        assert!(both.front.windows(2).all(|p| p[0].count < p[1].count && p[0].displacement > p[1].displacement));
+    }
+}
+
+/// More levels than 126 on every axis, which the rows of the search once could not hold.
+#[test]
+fn polycubes_of_a_thousand_corners_are_searched() {
+    let voxels = random_with_corners(1, 1000).expect("a random polycube");
+    let polycube = read(&coarse(&voxels, CellKind::Quads));
+    let levels = |axis: usize| polycube.structure.levels.iter().filter(|l| l.axis == axis).count();
+    assert!((0..3).all(|axis| levels(axis) > 126), "{:?}", [0, 1, 2].map(levels));
+    let effort = Effort { steps_per_level: 2, proof_nodes: 0, ..Effort::default() };
+    let best = run(&polycube, &Options { effort, ..Options::default() });
+    let paper = run(&polycube, &Options { strategy: Strategy::Paper, ..Options::default() });
+    let [best_count, paper_count] = [&best, &paper].map(|r| counted(r, Objective::BlocksPadded));
+    println!("{} before, {paper_count} by Algorithm 1, {best_count} by the search", best.before.blocks_padded);
+    assert!(best_count < paper_count, "{best_count} and {paper_count}");
+    assert_eq!(dense::check(&polycube.structure, &best.levels), Ok(()));
 }

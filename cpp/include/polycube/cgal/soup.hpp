@@ -20,10 +20,12 @@ using Point = Kernel::Point_3;
 using SurfaceMesh = CGAL::Surface_mesh<Point>;
 using Polygon = std::vector<std::size_t>;
 
-/// Points and polygons without connectivity.
+/// Points and polygons without connectivity; every point is used.
 struct Soup {
     std::vector<Point> points;
     std::vector<Polygon> polygons;
+    /// The vertex of the mesh that each point is.
+    std::vector<std::uint32_t> vertex_of;
 };
 
 inline std::vector<Point> points_of(const std::vector<double>& coordinates) {
@@ -37,19 +39,28 @@ inline std::vector<Point> points_of(const std::vector<double>& coordinates) {
 /// The faces of a surface, or of the boundary of a volume. Throws `Error` mesh for an index that is out of range.
 inline Soup soup_of(const Mesh& mesh) {
     const Mesh faces = boundary(mesh);
-    Soup soup{points_of(faces.points), {}};
+    const std::vector<Point> all = points_of(faces.points);
+    constexpr std::size_t unused = static_cast<std::size_t>(-1);
+    std::vector<std::size_t> number(all.size(), unused);
+    Soup soup;
     const std::size_t sides = vertices_per_cell(faces.kind);
-    for (auto v = faces.cells.begin(); v != faces.cells.end(); v += static_cast<std::ptrdiff_t>(sides)) {
-        soup.polygons.emplace_back(v, v + static_cast<std::ptrdiff_t>(sides));
+    for (std::size_t i = 0; i < faces.cells.size(); ++i) {
+        const std::uint32_t v = faces.cells[i];
+        if (number[v] == unused) {
+            number[v] = soup.points.size();
+            soup.points.push_back(all[v]);
+            soup.vertex_of.push_back(v);
+        }
+        if (i % sides == 0) soup.polygons.emplace_back();
+        soup.polygons.back().push_back(number[v]);
     }
     return soup;
 }
 
-/// Every polygon as a fan around its smallest vertex, as the core cuts them.
+/// Every polygon as a fan around its first point.
 inline std::vector<Polygon> triangles_of(const std::vector<Polygon>& polygons) {
     std::vector<Polygon> triangles;
-    for (Polygon polygon : polygons) {
-        std::rotate(polygon.begin(), std::min_element(polygon.begin(), polygon.end()), polygon.end());
+    for (const Polygon& polygon : polygons) {
         for (std::size_t i = 2; i < polygon.size(); ++i) triangles.push_back({polygon[0], polygon[i - 1], polygon[i]});
     }
     return triangles;

@@ -65,27 +65,32 @@ Repaired repair(const Mesh& mesh, const Repairs& allowed = {});
 
 namespace detail {
 
-/// Hears what `orient_polygon_soup` does.
-struct Orientation : CGAL::Polygon_mesh_processing::Default_orientation_visitor {
-    std::set<std::uint32_t> turned;
-    std::set<std::uint32_t> split;
+/// What `orient_polygon_soup` did.
+struct Orientation {
+    std::set<std::uint32_t> turned;  ///< Polygons.
+    std::set<std::uint32_t> split;   ///< Points of the soup.
+};
 
-    void polygon_orientation_reversed(std::size_t polygon) { toggle(static_cast<std::uint32_t>(polygon)); }
-    void vertex_id_in_polygon_replaced(std::size_t, std::size_t old, std::size_t) {
-        split.insert(static_cast<std::uint32_t>(old));
+/// Hears of it; CGAL copies it.
+struct OrientationVisitor : CGAL::Polygon_mesh_processing::Default_orientation_visitor {
+    Orientation* done = nullptr;
+
+    void polygon_orientation_reversed(std::size_t polygon) {
+        const auto number = static_cast<std::uint32_t>(polygon);
+        if (done->turned.erase(number) == 0) done->turned.insert(number);
     }
-
- private:
-    void toggle(std::uint32_t polygon) {
-        if (!turned.erase(polygon)) turned.insert(polygon);
+    void vertex_id_in_polygon_replaced(std::size_t, std::size_t old, std::size_t) {
+        done->split.insert(static_cast<std::uint32_t>(old));
     }
 };
 
 /// Makes the polygons agree. What cannot be is split.
 inline Orientation orient(Soup& soup) {
     Orientation done;
+    OrientationVisitor visitor;
+    visitor.done = &done;
     const auto original = static_cast<std::uint32_t>(soup.points.size());
-    CGAL::Polygon_mesh_processing::orient_polygon_soup(soup.points, soup.polygons, CGAL::parameters::visitor(done));
+    CGAL::Polygon_mesh_processing::orient_polygon_soup(soup.points, soup.polygons, CGAL::parameters::visitor(visitor));
     done.split.erase(done.split.lower_bound(original), done.split.end());
     return done;
 }
@@ -94,8 +99,8 @@ inline void check_finite(const Soup& soup) {
     for (std::size_t v = 0; v < soup.points.size(); ++v) {
         const Point& p = soup.points[v];
         if (CGAL::is_finite(p.x()) && CGAL::is_finite(p.y()) && CGAL::is_finite(p.z())) continue;
-        throw Error(ErrorKind::mesh, Place{Element::vertex, v, 0}, "a coordinate is not a finite number",
-                    "export the mesh again");
+        throw Error(ErrorKind::mesh, Place{Element::vertex, soup.vertex_of[v], 0},
+                    "a coordinate is not a finite number", "export the mesh again");
     }
 }
 
@@ -207,7 +212,7 @@ inline SurfaceCheck check_surface(const Mesh& mesh) {
     const std::size_t per_face = soup.polygons[0].size() - 2;
     const detail::Orientation done = detail::orient(soup);
     check.turned.assign(done.turned.begin(), done.turned.end());
-    check.non_manifold_vertices.assign(done.split.begin(), done.split.end());
+    for (const std::uint32_t v : done.split) check.non_manifold_vertices.push_back(soup.vertex_of[v]);
     const std::vector<detail::Polygon> triangles = detail::triangles_of(soup.polygons);
     const auto sound = detail::find_degenerate(soup, triangles, per_face, check);
     const detail::SurfaceMesh surface = detail::mesh_of(soup);

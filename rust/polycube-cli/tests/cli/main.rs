@@ -4,6 +4,7 @@
 mod compare;
 mod demo;
 mod failures;
+mod guides;
 mod inspect;
 mod interrupt;
 mod real;

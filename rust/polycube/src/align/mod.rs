@@ -31,6 +31,7 @@ use guides::{Guided, guided_start};
 use place::place_in_order;
 use problem::Problem;
 use ranks::Ranks;
+use std::time::Instant;
 
 /// Levels on the lattice, and how they got there.
 #[derive(Clone, Debug, PartialEq)]
@@ -140,6 +141,8 @@ struct Task<'a> {
     guided: Guided,
     /// The counts of the input.
     before: Counts,
+    /// When to stop searching.
+    deadline: Option<Instant>,
     options: &'a Options,
 }
 
@@ -154,7 +157,8 @@ impl<'a> Task<'a> {
         let targets = scaled(input, options.scale)?;
         let guided = Guided::new(structure, input, &options.guides, options.scale)?;
         let start = guided_start(structure, input, &guided, context)?;
-        Ok(Self { structure, input, start, targets, guided, before, options })
+        let deadline = options.effort.time_limit.map(|limit| Instant::now() + limit);
+        Ok(Self { structure, input, start, targets, guided, before, deadline, options })
     }
 
     /// The promise: never more blocks than before.

@@ -28,7 +28,7 @@ pub fn move_levels(mesh: &Mesh, labels: &[i8], mut offset: impl FnMut(usize) -> 
 }
 
 /// Moves every facet by a random offset of up to `fraction` of the shortest edge of the mesh, the
-/// same for a `seed` everywhere. No face turns over.
+/// same for a `seed` everywhere. No rectangle turns over; a triangle may whose corners move with different facets.
 ///
 /// # Errors
 /// [`ErrorKind::Option`] when `fraction` is outside `0..0.5`, and those of [`move_levels`].

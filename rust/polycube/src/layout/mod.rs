@@ -11,7 +11,7 @@ pub use boxes::{Block, Patch};
 pub use complex::{Complex, Counts};
 pub use lattice::Lattice;
 pub use pieces::Pieces;
-pub use rows::Rows;
+pub use rows::{Counter, MOST_LEVELS, Rows, counter};
 pub use separatrices::Separatrices;
 
 use crate::structure::Arrangement;

@@ -27,6 +27,7 @@ pub fn hausdorff(mesh: &Mesh, shape: &Mesh, context: &Context) -> Result<f64> {
 ///
 /// The distance grows no faster than one walks, so samples that cannot be farther than the farthest yet are skipped.
 fn farthest(from: &Mesh, to: &Mesh, context: &Context) -> Result<f64> {
+    context.tick(0.0)?;
     let (faces, target) = (from.cells.boundary()?, to.cells.boundary()?);
     if faces.is_empty() || target.is_empty() {
         return Err(Error::new(ErrorKind::Mesh, "a mesh without cells has no surface"));

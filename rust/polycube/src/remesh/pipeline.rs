@@ -16,9 +16,10 @@ use std::time::Instant;
 /// How a shape is meshed.
 #[derive(Clone, Debug, PartialEq)]
 pub struct RemeshOptions {
-    /// How the polycube is simplified; [`Strategy::Naive`] meshes it as it is. Of `scale` only [`size`](Self::size) is used
+    /// How the polycube is simplified; [`Strategy::Naive`](crate::align::Strategy::Naive) meshes it as it is. Of `scale` only [`size`](Self::size) is used
     /// where that is given. Unless it bounds the displacement, corners move by a twelfth of the polycube's diagonal at most,
-    /// as far as that can be had: fewer blocks than that allows make bad hexahedra.
+    /// as far as that can be had; and unless it says where on the front or how far, they move less where a coarse mesh of the
+    /// fewest blocks is poor, and a note says so.
     pub simplify: simplify::Options,
     /// How fine the mesh shall be; by default as [`simplify::Options::scale`] says.
     pub size: Option<Size>,
@@ -66,13 +67,14 @@ pub struct Remeshed {
 ///
 /// The map from shape to polycube is made one to one on every facet; the lattice of the wanted size is mapped back
 /// through it, padded, and optimised with the surface sliding on the shape until no hexahedron is inverted and the worst is
-/// as good as can be had. Where inverted hexahedra remain or the surface is farther from the shape than asked for, the result
+/// as good as can be had. Surface vertices leave the shape, by less than the bound, where quadrilaterals would cut off more.
+/// Levels are spaced by the shape, unless the scale is given. Where inverted hexahedra remain or the surface is farther from the shape than asked for, the result
 /// is given all the same and the report says so. Without a shape the polycube itself is meshed.
 ///
 /// The result is the same for any number of threads.
 ///
 /// # Errors
-/// Those of [`simplify()`], [`scale_for`], [`Remesher`] and [`optimise`](crate::optimise::optimise()); [`ErrorKind::Option`] for a bound on the
+/// Those of [`simplify()`], [`scale_for`](super::scale_for()), [`Remesher`] and [`optimise`](crate::optimise::optimise()); [`ErrorKind::Option`] for a bound on the
 /// Hausdorff distance that is not positive; [`ErrorKind::Cancelled`].
 pub fn remesh(input: &Input, options: &RemeshOptions, context: &Context) -> Result<Remeshed> {
     if options.max_hausdorff.is_nan() || options.max_hausdorff <= 0.0 {

@@ -34,6 +34,16 @@ pub fn images(structure: &Structure, input: &[f64], plane: &Symmetry) -> Result<
     Ok((0..).zip(image).map(|(l, i)| if i == u32::MAX { l } else { i }).collect())
 }
 
+/// The planes through the middle of the polycube that it is symmetric about: the axis across, and the image of each level.
+pub fn symmetries(structure: &Structure, input: &[f64]) -> Vec<(usize, Vec<u32>)> {
+    let middle = |axis: usize| {
+        let along = structure.levels.iter().zip(input).filter(|(l, _)| l.axis == axis).map(|(_, &x)| x);
+        let (low, high) = along.fold((f64::INFINITY, f64::NEG_INFINITY), |(l, h), x| (l.min(x), h.max(x)));
+        Symmetry { axis, at: f64::midpoint(low, high) }
+    };
+    (0..3).filter_map(|axis| images(structure, input, &middle(axis)).ok().map(|image| (axis, image))).collect()
+}
+
 /// For each corner the one nearest to where the plane mirrors it. O(n²) for n corners.
 fn corner_images(structure: &Structure, input: &[f64], plane: &Symmetry) -> Result<Vec<u32>> {
     let all: Vec<[f64; 3]> = (0..structure.corners.len() as u32).map(|c| structure.position(c, input)).collect();

@@ -4,6 +4,7 @@ mod mirror;
 mod resolved;
 mod start;
 
+pub(super) use mirror::symmetries;
 pub(super) use resolved::Guided;
 pub(super) use start::{guided_start, is_valid};
 

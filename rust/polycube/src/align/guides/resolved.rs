@@ -77,6 +77,11 @@ impl Guided {
         Ok(guided)
     }
 
+    /// Whether nothing is asked for.
+    pub fn is_free(&self) -> bool {
+        !self.any
+    }
+
     /// The levels that must be equal, as classes.
     pub fn classes(&self) -> &Classes {
         &self.classes

@@ -37,14 +37,14 @@ pub fn is_valid(structure: &Structure, placement: &[f64]) -> bool {
 
 /// A walk over valid orders from that of the input that never gets farther from the guides.
 fn repaired(structure: &Structure, input: &[f64], guided: &Guided, context: &Context) -> Result<Placement> {
-    let moves = Moves::new(structure, &Guided::free(structure));
+    let moves = Moves::new(structure, &Guided::free(structure), Vec::new());
     let mut judge = Judge::new(structure);
     let mut random = SplitMix64::new(1);
     let mut now = Ranks::new(structure, input);
     let mut missing = guided.missing(&now);
     for _ in 0..STEPS_PER_LEVEL * structure.levels.len() {
         context.tick(0.0)?;
-        let Some((next, _)) = moves.draw(&now, &mut random) else { continue };
+        let Some((next, _)) = moves.draw(&now, false, &mut random) else { continue };
         let its = guided.missing(&next);
         if its <= missing && judge.counts(&next).is_some() {
             (now, missing) = (next, its);

@@ -5,11 +5,10 @@ use super::moves::Moves;
 use crate::align::guides::Guided;
 use crate::align::ranks::Ranks;
 use crate::context::Context;
-use crate::error::Result;
+use crate::error::{Error, ErrorKind, Result};
 use crate::generate::SplitMix64;
-use crate::layout::{Objective, Rows};
+use crate::layout::{Counter, Objective, counter};
 use crate::structure::Structure;
-use num_traits::PrimInt;
 use std::time::Instant;
 
 /// An order with what it counts and costs.
@@ -52,6 +51,27 @@ pub struct Landscape<'a> {
     pub deadline: Option<Instant>,
 }
 
+impl<'a> Landscape<'a> {
+    /// How much work one chain or one greedy merging may be, in words of bits looked at: a few seconds.
+    const WORK: usize = 4_000_000_000;
+
+    /// A walker; its work space is made once.
+    pub fn chain(&'a self) -> Result<Chain<'a>> {
+        let most = || Error::new(ErrorKind::Internal, "too many levels to search");
+        Ok(Chain { landscape: self, rows: counter(self.structure).ok_or_else(most)?, corners: self.corners() })
+    }
+
+    /// So many of `counts` that the work stays in bounds.
+    pub fn affordable(&self, counts: u32) -> u32 {
+        let words = counter(self.structure).map_or(1, |rows| rows.words()).max(1);
+        counts.min((Self::WORK / words) as u32)
+    }
+
+    fn corners(&self) -> f64 {
+        self.structure.corners.len() as f64
+    }
+}
+
 /// One run of annealing.
 #[derive(Clone, Copy)]
 pub struct Schedule {
@@ -65,22 +85,18 @@ pub struct Schedule {
     pub cold: f64,
     /// How much displacement counts, see [`Landscape::unit`].
     pub weight: f64,
+    /// Whether two levels may move at once.
+    pub paired: bool,
 }
 
 /// A walker on a landscape.
-pub struct Chain<'a, R> {
+pub struct Chain<'a> {
     landscape: &'a Landscape<'a>,
-    rows: Rows<R>,
+    rows: Box<dyn Counter>,
     corners: f64,
 }
 
-impl<'a, R: PrimInt> Chain<'a, R> {
-    /// A walker; its work space is made once.
-    pub fn new(landscape: &'a Landscape<'a>) -> Self {
-        let corners = landscape.structure.corners.len() as f64;
-        Self { landscape, rows: Rows::new(landscape.structure), corners }
-    }
-
+impl Chain<'_> {
     /// Judges an order; nothing if it is no valid polycube.
     pub fn state(&mut self, ranks: Ranks) -> Option<State> {
         let count = self.count(&ranks)?;
@@ -125,7 +141,7 @@ impl<'a, R: PrimInt> Chain<'a, R> {
             }
             temperature *= cooling;
             let limit = energy - temperature * libm::log(random.unit().max(1e-12));
-            if let Some((next, its)) = self.attempt(&now, limit, schedule.weight, &mut random) {
+            if let Some((next, its)) = self.attempt(&now, limit, schedule, &mut random) {
                 (now, energy) = (next, its);
                 front.offer(&now);
             }
@@ -134,13 +150,19 @@ impl<'a, R: PrimInt> Chain<'a, R> {
     }
 
     /// A random neighbour of `now` and its energy, if it is valid and its energy at most `limit`.
-    fn attempt(&mut self, now: &State, limit: f64, weight: f64, random: &mut SplitMix64) -> Option<(State, f64)> {
-        let (ranks, axis) = self.landscape.moves.draw(&now.ranks, random)?;
+    fn attempt(
+        &mut self,
+        now: &State,
+        limit: f64,
+        schedule: &Schedule,
+        random: &mut SplitMix64,
+    ) -> Option<(State, f64)> {
+        let (ranks, axis) = self.landscape.moves.draw(&now.ranks, schedule.paired, random)?;
         let mut shape = now.shape;
         shape[axis] = self.shape(&ranks, axis);
         let count = self.count(&ranks)?;
         let next = State { ranks, count, shape };
-        let energy = self.energy(&next, weight);
+        let energy = self.energy(&next, schedule.weight);
         (energy <= limit).then_some((next, energy))
     }
 }

@@ -1,30 +1,33 @@
 //! The strategy `best`: Algorithm 1 and greedy merging, then annealing from both; the coarsest valid result wins.
 
 mod anneal;
+mod chains;
 mod coarsest;
 mod front;
 mod greedy;
 mod moves;
+mod parts;
 
 pub use coarsest::{coarsest, place_trade_off};
 pub use moves::Moves;
 
 use super::Task;
+use super::guides::symmetries;
 use super::prove::{Proof, prove_guided};
 use super::ranks::Ranks;
 use crate::context::Context;
-use crate::error::Result;
-use crate::layout::Rows;
+use crate::error::{Error, ErrorKind, Result};
+use crate::layout::MOST_LEVELS;
 use crate::structure::Structure;
-use anneal::{Chain, Landscape, Schedule, State};
+use anneal::{Landscape, State};
 use front::Front;
-use num_traits::PrimInt;
+use parts::Part;
 use std::time::{Duration, Instant};
 
 /// How long the search may take.
 #[derive(Clone, Copy, Debug, PartialEq, serde::Serialize)]
 pub struct Effort {
-    /// Moves tried per level in each of the four chains; the result is the same for the same number.
+    /// Moves tried per level in each of the eight chains; the result is the same for the same number.
     pub steps_per_level: u32,
     /// Partial orders that the proof of a lower bound looks at; 0 for a quick bound.
     pub proof_nodes: u64,
@@ -38,14 +41,6 @@ impl Default for Effort {
     }
 }
 
-/// The chains, two from the result of Algorithm 1 and two from that of greedy merging, of which one each minds displacement.
-const CHAINS: [Schedule; 4] = [
-    Schedule { seed: 1, steps: 0, hot: 0.05, cold: 0.002, weight: 0.01 },
-    Schedule { seed: 2, steps: 0, hot: 0.1, cold: 0.002, weight: 0.01 },
-    Schedule { seed: 3, steps: 0, hot: 0.05, cold: 0.002, weight: 0.3 },
-    Schedule { seed: 4, steps: 0, hot: 0.05, cold: 0.002, weight: 2.0 },
-];
-
 /// The trade-offs met on the way.
 pub struct Found {
     /// Orders between the coarsest and the input.
@@ -54,64 +49,95 @@ pub struct Found {
     pub proof: Proof,
 }
 
-/// Whether [`search`] can handle a structure: it needs 126 levels or fewer on one axis.
+/// Whether [`search`] can handle a structure: it needs 1022 levels or fewer on one axis.
 pub fn is_searchable(structure: &Structure) -> bool {
-    levels_along_rows(structure) <= Rows::<u128>::capacity()
-}
-
-fn levels_along_rows(structure: &Structure) -> usize {
-    let axis = Rows::<u128>::row_axis(structure);
-    structure.levels.iter().filter(|l| l.axis == axis).count()
+    (0..3).any(|axis| structure.levels.iter().filter(|l| l.axis == axis).count() <= MOST_LEVELS)
 }
 
 /// How much more than any other the displacement of a fixed level counts.
 const FIXED: f64 = 1e4;
 
-/// Searches for the order with the smallest count, starting from that of `paper`, a valid placement, and from that of the input.
+/// Searches for the order with the smallest count, starting from that of `paper`, a valid placement, and from that of the input;
+/// solids that stay separate are searched one by one.
 ///
 /// The result counts no more than either, and than greedy merging from the input. The start of the task stands for the input
 /// where guides do not allow the input itself.
 pub fn search(task: &Task, paper: &[f64], context: &Context) -> Result<Found> {
-    let Task { structure, input, guided, options, .. } = task;
-    let effort = &options.effort;
-    let moves = Moves::new(structure, guided);
-    let mut weights: Vec<f64> = structure.levels.iter().map(|l| f64::from(l.corners)).collect();
-    guided.fixed().for_each(|(l, _)| weights[l as usize] *= FIXED);
-    let landscape = Landscape {
-        structure,
-        moves: &moves,
-        objective: options.objective,
-        guided,
-        targets: input,
-        weights: &weights,
-        gap: structure.shortest_edge(input) / 2.0,
-        unit: diagonal(structure, input),
-        deadline: effort.time_limit.map(|limit| Instant::now() + limit),
-    };
-    let starts = [Ranks::new(structure, paper), Ranks::new(structure, &task.start)];
-    if levels_along_rows(structure) <= Rows::<u64>::capacity() {
-        run::<u64>(&landscape, &starts, effort, context)
-    } else {
-        run::<u128>(&landscape, &starts, effort, context)
+    let parts = if task.guided.is_free() { parts::split(task.structure, &task.start) } else { Vec::new() };
+    if parts.len() < 2 { search_whole(task, paper, context) } else { search_parts(task, paper, &parts, context) }
+}
+
+fn search_parts(task: &Task, paper: &[f64], parts: &[Part], context: &Context) -> Result<Found> {
+    let mut found = Vec::new();
+    for (k, part) in parts.iter().enumerate() {
+        let done = |k: usize| k as f64 / parts.len() as f64;
+        let own = context.stage("search", done(k), done(k + 1));
+        let input = part.of(task.input);
+        found.push(search_whole(&part.task(task, &input), &part.of(paper), &own)?);
+    }
+    let sum = |of: fn(&Proof) -> usize| found.iter().map(|f| of(&f.proof)).sum::<usize>();
+    let (bound, nodes) = (sum(|p| p.bound), found.iter().map(|f| f.proof.nodes).sum());
+    let prepared = Prepared::new(task);
+    let landscape = prepared.landscape(task);
+    let mut chain = landscape.chain()?;
+    let mut front = Front::default();
+    let starts = [Ranks::new(task.structure, paper), Ranks::new(task.structure, &task.start)];
+    starts.into_iter().filter_map(|ranks| chain.state(ranks)).for_each(|s| front.offer(&s));
+    parts::combine(task, parts, &found, &mut chain, &mut front, context)?;
+    let best = front.states().next();
+    let best = best.ok_or_else(|| Error::new(ErrorKind::Internal, "the start of the search is not valid"))?;
+    let proof = Proof { bound, best: best.ranks.clone(), count: best.count, proven: best.count == bound, nodes };
+    Ok(Found { front, proof })
+}
+
+fn search_whole(task: &Task, paper: &[f64], context: &Context) -> Result<Found> {
+    let prepared = Prepared::new(task);
+    let starts = [Ranks::new(task.structure, paper), Ranks::new(task.structure, &task.start)];
+    run(&prepared.landscape(task), &starts, &task.options.effort, context)
+}
+
+/// What a landscape borrows.
+struct Prepared {
+    moves: Moves,
+    weights: Vec<f64>,
+}
+
+impl Prepared {
+    fn new(task: &Task) -> Self {
+        let Task { structure, input, guided, .. } = task;
+        let mut weights: Vec<f64> = structure.levels.iter().map(|l| f64::from(l.corners)).collect();
+        guided.fixed().for_each(|(l, _)| weights[l as usize] *= FIXED);
+        Self { moves: Moves::new(structure, guided, symmetries(structure, input)), weights }
+    }
+
+    fn landscape<'a>(&'a self, task: &'a Task) -> Landscape<'a> {
+        let Task { structure, input, guided, options, .. } = task;
+        Landscape {
+            structure,
+            moves: &self.moves,
+            objective: options.objective,
+            guided,
+            targets: input,
+            weights: &self.weights,
+            gap: structure.shortest_edge(input) / 2.0,
+            unit: diagonal(structure, input),
+            deadline: task.deadline,
+        }
     }
 }
 
-fn run<R: PrimInt + Send>(
-    landscape: &Landscape,
-    starts: &[Ranks; 2],
-    effort: &Effort,
-    context: &Context,
-) -> Result<Found> {
-    let mut chain = Chain::<R>::new(landscape);
+/// Greedy merging, the chains, the proof.
+fn run(landscape: &Landscape, starts: &[Ranks; 2], effort: &Effort, context: &Context) -> Result<Found> {
+    let mut chain = landscape.chain()?;
     let valid: Vec<State> = starts.iter().filter_map(|ranks| chain.state(ranks.clone())).collect();
     let Some(input) = valid.last().cloned() else {
-        return Err(crate::Error::new(crate::ErrorKind::Internal, "the start of the search is not valid"));
+        return Err(Error::new(ErrorKind::Internal, "the start of the search is not valid"));
     };
-    let merged = greedy::merge(landscape.structure, landscape.moves, &mut chain, input, context)?;
+    let merged = greedy::merge(landscape, &mut chain, input, context)?;
     let begin = [valid[0].clone(), merged.clone()];
     let mut front = Front::default();
     valid.iter().chain([&merged]).for_each(|s| front.offer(s));
-    walk_all::<R>(landscape, &begin, effort, context)?.into_iter().for_each(|seen| front.join(seen));
+    chains::walk(landscape, &begin, effort, &mut front, context)?;
     // The front holds every state accepted on the way, so it begins with the best of them.
     let incumbent = front.states().next().unwrap_or(&merged).ranks.clone();
     let left = landscape.deadline.map(|d| d.saturating_duration_since(Instant::now()));
@@ -121,34 +147,6 @@ fn run<R: PrimInt + Send>(
         front.offer(&state);
     }
     Ok(Found { front, proof })
-}
-
-/// All chains, two at a time. What they find does not depend on how they are scheduled.
-fn walk_all<R: PrimInt + Send>(
-    landscape: &Landscape,
-    begin: &[State; 2],
-    effort: &Effort,
-    context: &Context,
-) -> Result<Vec<Front>> {
-    let steps = effort.steps_per_level.saturating_mul(landscape.structure.levels.len() as u32);
-    let walk = |i: usize| {
-        let schedule = Schedule { steps, ..CHAINS[i] };
-        let mut front = Front::default();
-        let start = begin[i % 2].clone();
-        Chain::<R>::new(landscape).walk(start, &schedule, &mut front, context).map(|()| front)
-    };
-    let mut results = Vec::new();
-    for first in (0..CHAINS.len()).step_by(2) {
-        let pair = std::thread::scope(|scope| {
-            let other = scope.spawn(|| walk(first + 1));
-            let own = walk(first);
-            [Some(own), other.join().ok()]
-        });
-        for result in pair.into_iter().flatten() {
-            results.push(result?);
-        }
-    }
-    Ok(results)
 }
 
 fn diagonal(structure: &Structure, placement: &[f64]) -> f64 {

@@ -9,10 +9,12 @@ mod sheets;
 #[cfg(test)]
 mod tests;
 mod valid;
+mod word;
+
+use word::{Wide, Word};
 
 use super::{Counts, Objective};
 use crate::structure::Structure;
-use num_traits::PrimInt;
 
 /// An edge of the structure along one of the two axes across the rows, by the levels it needs.
 struct Wall {
@@ -36,11 +38,11 @@ struct Marks<R> {
     negative: Vec<R>,
 }
 
-impl<R: PrimInt> Marks<R> {
+impl<R: Word> Marks<R> {
     fn reset(&mut self, rows: usize) {
         for marks in [&mut self.positive, &mut self.negative] {
             marks.clear();
-            marks.resize(rows, R::zero());
+            marks.resize(rows, R::ZERO);
         }
     }
 
@@ -62,25 +64,76 @@ pub struct Rows<R> {
     solid: Vec<R>,
     sheets: [Vec<R>; 3],
     corners: usize,
+    words: usize,
 }
 
-impl<R: PrimInt> Rows<R> {
-    /// How many planes the first axis can have.
-    pub fn capacity() -> usize {
-        R::zero().count_zeros() as usize - 2
+/// [`Rows`] of any width.
+pub trait Counter: Send {
+    /// See [`Rows::count`].
+    fn count(&mut self, objective: Objective, ranks: &[u16], planes: [usize; 3]) -> Option<usize>;
+
+    /// See [`Rows::counts`].
+    fn counts(&mut self, ranks: &[u16], planes: [usize; 3]) -> Option<Counts>;
+
+    /// See [`Rows::is_valid`].
+    fn is_valid(&mut self, ranks: &[u16], planes: [usize; 3]) -> bool;
+
+    /// How many words of 64 bits a lattice with all levels apart has: what a count takes is about proportional to that.
+    fn words(&self) -> usize;
+}
+
+impl<R: Word> Counter for Rows<R> {
+    fn count(&mut self, objective: Objective, ranks: &[u16], planes: [usize; 3]) -> Option<usize> {
+        self.count(objective, ranks, planes)
     }
 
-    /// The axis with the fewest levels, along which rows run.
-    pub fn row_axis(structure: &Structure) -> usize {
-        let count = |axis: &usize| structure.levels.iter().filter(|l| l.axis == *axis).count();
-        (0..3).min_by_key(count).unwrap_or(0)
+    fn counts(&mut self, ranks: &[u16], planes: [usize; 3]) -> Option<Counts> {
+        self.counts(ranks, planes)
+    }
+
+    fn is_valid(&mut self, ranks: &[u16], planes: [usize; 3]) -> bool {
+        self.is_valid(ranks, planes)
+    }
+
+    fn words(&self) -> usize {
+        self.words
+    }
+}
+
+/// The most levels that the axis with the fewest levels can have for [`counter`].
+pub const MOST_LEVELS: usize = 1022;
+
+/// [`Rows`] of the narrowest words that hold the structure; nothing if it has more than [`MOST_LEVELS`] levels along every axis.
+pub fn counter(structure: &Structure) -> Option<Box<dyn Counter>> {
+    let axis = row_axis(structure);
+    let levels = structure.levels.iter().filter(|l| l.axis == axis).count();
+    Some(match levels {
+        n if n <= Rows::<u64>::capacity() => Box::new(Rows::<u64>::new(structure)),
+        n if n <= Rows::<u128>::capacity() => Box::new(Rows::<u128>::new(structure)),
+        n if n <= Rows::<Wide<4>>::capacity() => Box::new(Rows::<Wide<4>>::new(structure)),
+        n if n <= MOST_LEVELS => Box::new(Rows::<Wide<16>>::new(structure)),
+        _ => return None,
+    })
+}
+
+/// The axis with the fewest levels, along which rows run.
+fn row_axis(structure: &Structure) -> usize {
+    let count = |axis: &usize| structure.levels.iter().filter(|l| l.axis == *axis).count();
+    (0..3).min_by_key(count).unwrap_or(0)
+}
+
+impl<R: Word> Rows<R> {
+    /// How many planes the first axis can have.
+    pub fn capacity() -> usize {
+        R::BITS - 2
     }
 
     /// Prepares the evaluation of orders of `structure`.
     pub fn new(structure: &Structure) -> Self {
-        let first = Self::row_axis(structure);
+        let first = row_axis(structure);
         let axes = [first, (first + 1) % 3, (first + 2) % 3];
         let lengths = structure.edges.iter().map(|e| structure.ends(e)).collect();
+        let across = |axis: usize| structure.levels.iter().filter(|l| l.axis == axis).count() + 2;
         Self {
             axes,
             walls: walls(structure, axes),
@@ -90,6 +143,7 @@ impl<R: PrimInt> Rows<R> {
             solid: Vec::new(),
             sheets: std::array::from_fn(|_| Vec::new()),
             corners: structure.corners.len(),
+            words: across(axes[1]) * across(axes[2]) * (R::BITS / 64),
         }
     }
 
@@ -142,7 +196,7 @@ impl<R: PrimInt> Rows<R> {
         let rank = |l: u32| usize::from(ranks[l as usize]);
         for wall in &self.walls {
             let i = rank(wall.first);
-            let from_here = !R::zero() << i;
+            let from_here = !R::ZERO << i;
             let (across, ends) = (rank(wall.across), wall.ends.map(rank));
             if wall.along_second {
                 let row = across * nj;
@@ -154,7 +208,7 @@ impl<R: PrimInt> Rows<R> {
                     let second = &mut self.faces[1].of(wall.positive[0])[row];
                     *second = *second ^ from_here;
                     let first = &mut self.faces[0].of(wall.positive[1])[row];
-                    *first = *first ^ (R::one() << i);
+                    *first = *first ^ (R::ONE << i);
                 }
             }
         }
@@ -174,18 +228,18 @@ impl<R: PrimInt> Rows<R> {
 
     /// The row `distance` before `row`, empty outside the lattice.
     fn before(&self, row: usize, distance: usize) -> R {
-        row.checked_sub(distance).map_or(R::zero(), |r| self.solid[r])
+        row.checked_sub(distance).map_or(R::ZERO, |r| self.solid[r])
     }
 
     fn after(&self, row: usize, distance: usize) -> R {
-        self.solid.get(row + distance).copied().unwrap_or(R::zero())
+        self.solid.get(row + distance).copied().unwrap_or(R::ZERO)
     }
 }
 
 /// Every bit the parity of the bits at and below it.
-fn parity<R: PrimInt>(mut word: R) -> R {
+fn parity<R: Word>(mut word: R) -> R {
     let mut shift = 1;
-    while shift < R::zero().count_zeros() as usize {
+    while shift < R::BITS {
         word = word ^ (word << shift);
         shift *= 2;
     }
@@ -193,14 +247,14 @@ fn parity<R: PrimInt>(mut word: R) -> R {
 }
 
 /// The runs of set bits in `inner` that hold a bit of `seed`.
-fn spread<R: PrimInt>(seed: R, inner: R) -> R {
+fn spread<R: Word>(seed: R, inner: R) -> R {
     spread_up(seed, inner) | spread_down(seed, inner)
 }
 
 /// `seed` and the set bits of `through` that follow it upwards without a gap.
-fn spread_up<R: PrimInt>(mut seed: R, mut through: R) -> R {
+fn spread_up<R: Word>(mut seed: R, mut through: R) -> R {
     let mut shift = 1;
-    while shift < R::zero().count_zeros() as usize {
+    while shift < R::BITS {
         seed = seed | (through & (seed << shift));
         through = through & (through << shift);
         shift *= 2;
@@ -209,9 +263,9 @@ fn spread_up<R: PrimInt>(mut seed: R, mut through: R) -> R {
 }
 
 /// `seed` and the set bits of `through` that follow it downwards without a gap.
-fn spread_down<R: PrimInt>(mut seed: R, mut through: R) -> R {
+fn spread_down<R: Word>(mut seed: R, mut through: R) -> R {
     let mut shift = 1;
-    while shift < R::zero().count_zeros() as usize {
+    while shift < R::BITS {
         seed = seed | (through & (seed >> shift));
         through = through & (through >> shift);
         shift *= 2;

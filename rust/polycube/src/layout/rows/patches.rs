@@ -1,12 +1,12 @@
 //! The coarse quad layout on rows of bits: separatrices from all corners, and the patches that they leave.
 
+use super::Word;
 use super::{Rows, spread_down, spread_up};
-use num_traits::PrimInt;
 
 /// Per axis, one bit for the lattice edge above each vertex.
 type EdgeBits<R> = [Vec<R>; 3];
 
-impl<R: PrimInt> Rows<R> {
+impl<R: Word> Rows<R> {
     /// Patches of the surface, as [`Separatrices`](super::super::separatrices::Separatrices) counts them. The order must be valid.
     pub(super) fn patches(&self) -> usize {
         let (flat, sharp) = self.surface_edges();
@@ -24,7 +24,7 @@ impl<R: PrimInt> Rows<R> {
 
     /// The lattice edges where the surface is flat and those where it is an edge of the polycube.
     fn surface_edges(&self) -> (EdgeBits<R>, EdgeBits<R>) {
-        let mut flat: EdgeBits<R> = std::array::from_fn(|_| vec![R::zero(); self.solid.len()]);
+        let mut flat: EdgeBits<R> = std::array::from_fn(|_| vec![R::ZERO; self.solid.len()]);
         let mut sharp = flat.clone();
         for row in 0..self.solid.len() {
             let [a, b, c, d] = [0, 1, self.size[0], self.size[0] + 1].map(|back| self.before(row, back));
@@ -40,7 +40,7 @@ impl<R: PrimInt> Rows<R> {
 
     /// The flat lattice edges that separatrices run along: spread from corners until nothing is added.
     fn separatrices(&self, flat: &EdgeBits<R>, sharp: &EdgeBits<R>) -> EdgeBits<R> {
-        let mut marked: EdgeBits<R> = std::array::from_fn(|_| vec![R::zero(); self.solid.len()]);
+        let mut marked: EdgeBits<R> = std::array::from_fn(|_| vec![R::ZERO; self.solid.len()]);
         let kinds: Vec<[R; 2]> = (0..self.solid.len()).map(|row| self.vertex_kinds(sharp, row)).collect();
         let corner = |row: usize| kinds[row][0];
         for row in self.size[0] + 1..self.solid.len() {
@@ -58,7 +58,7 @@ impl<R: PrimInt> Rows<R> {
 
     /// The vertices of a row that are corners, and those inside a polycube edge.
     fn vertex_kinds(&self, sharp: &EdgeBits<R>, row: usize) -> [R; 2] {
-        let at = |axis: usize, back: usize| row.checked_sub(back).map_or(R::zero(), |r| sharp[axis][r]);
+        let at = |axis: usize, back: usize| row.checked_sub(back).map_or(R::ZERO, |r| sharp[axis][r]);
         let around = [[at(0, 0), at(0, 0) << 1], [at(1, 0), at(1, 1)], [at(2, 0), at(2, self.size[0])]];
         let any = around.map(|[p, q]| p | q);
         let both = around.map(|[p, q]| p & q);
@@ -85,7 +85,7 @@ impl<R: PrimInt> Rows<R> {
 }
 
 /// Marks the flat lattice edges at the vertices of a row, along each axis those of `at`.
-fn mark<R: PrimInt>(marked: &mut EdgeBits<R>, flat: &EdgeBits<R>, row: usize, nj: usize, at: [R; 3]) {
+fn mark<R: Word>(marked: &mut EdgeBits<R>, flat: &EdgeBits<R>, row: usize, nj: usize, at: [R; 3]) {
     marked[0][row] = marked[0][row] | flat[0][row] & (at[0] | at[0] >> 1);
     for (axis, back) in [(1, 1), (2, nj)] {
         marked[axis][row] = marked[axis][row] | flat[axis][row] & at[axis];
@@ -94,10 +94,10 @@ fn mark<R: PrimInt>(marked: &mut EdgeBits<R>, flat: &EdgeBits<R>, row: usize, nj
 }
 
 /// Marks along a row, spread over runs of flat edges that no vertex of `stops` interrupts.
-fn straight<R: PrimInt>(marked: R, flat: R, stops: R) -> R {
+fn straight<R: Word>(marked: R, flat: R, stops: R) -> R {
     spread_up(marked, flat & !stops) | spread_down(marked, flat & !(stops >> 1))
 }
 
-fn ones<R: PrimInt>(bits: &EdgeBits<R>) -> u32 {
+fn ones<R: Word>(bits: &EdgeBits<R>) -> u32 {
     bits.iter().flatten().map(|w| w.count_ones()).sum()
 }

@@ -1,9 +1,9 @@
 //! The base complex on rows of bits: sheets, blocks, and the faces of the complex on the surface.
 
+use super::Word;
 use super::{Rows, spread};
-use num_traits::PrimInt;
 
-impl<R: PrimInt> Rows<R> {
+impl<R: Word> Rows<R> {
     /// Inner faces beside a reflex edge, and all that their planes reach.
     pub(super) fn grow_sheets(&mut self) {
         let [nj, nk] = self.size;
@@ -36,9 +36,9 @@ impl<R: PrimInt> Rows<R> {
         let lower = |at: R, row: Option<usize>| match (stride, row) {
             (0, _) => at << 1,
             (_, Some(r)) => self.before(r, stride),
-            _ => R::zero(),
+            _ => R::ZERO,
         };
-        let mut one_solid = R::zero();
+        let mut one_solid = R::ZERO;
         for step in [1, nj].into_iter().filter(|s| *s != stride) {
             let (back, ahead) = (self.before(row, step), self.after(row, step));
             one_solid = one_solid | beside(back, lower(back, row.checked_sub(step)));

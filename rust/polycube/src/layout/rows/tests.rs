@@ -1,11 +1,11 @@
 //! The rows of bits against the exact arrangement and the lattice of cells.
 
 use super::Rows;
+use super::{Wide, Word};
 use crate::generate::{SplitMix64, random_polycube};
 use crate::layout::{Objective, count};
 use crate::mesh::CellKind;
 use crate::structure::{Arrangement, Polycube, Structure, Tolerance};
-use num_traits::PrimInt;
 
 const OBJECTIVES: [Objective; 3] = [Objective::BlocksPadded, Objective::Blocks, Objective::SurfacePatches];
 
@@ -39,7 +39,7 @@ fn exact(structure: &Structure, placement: &[f64], objective: Objective) -> Opti
 }
 
 /// Moves one level after another onto, before or behind another and compares; how many placements were valid and not.
-fn compare<R: PrimInt>(seed: u64, steps: usize) -> [usize; 2] {
+fn compare<R: Word>(seed: u64, steps: usize) -> [usize; 2] {
     let polycube = polycube(seed);
     let structure = &polycube.structure;
     let mut rows = Rows::<R>::new(structure);
@@ -75,7 +75,12 @@ fn compare<R: PrimInt>(seed: u64, steps: usize) -> [usize; 2] {
 fn rows_agree_with_the_arrangement_on_valid_and_broken_orders() {
     let mut seen = [0; 2];
     for seed in 0..60 {
-        let these = if seed % 2 == 0 { compare::<u64>(seed, 60) } else { compare::<u128>(seed, 60) };
+        let these = match seed % 4 {
+            0 => compare::<u64>(seed, 60),
+            1 => compare::<u128>(seed, 60),
+            2 => compare::<Wide<4>>(seed, 60),
+            _ => compare::<Wide<16>>(seed, 60),
+        };
         seen = [seen[0] + these[0], seen[1] + these[1]];
     }
     assert!(seen[0] > 300 && seen[1] > 300, "both kinds must occur: {seen:?}");

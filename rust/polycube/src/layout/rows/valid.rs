@@ -1,12 +1,12 @@
 //! Whether the facets painted on the rows bound a solid that is a polycube of this structure.
 
 use super::Rows;
-use num_traits::PrimInt;
+use super::Word;
 
-impl<R: PrimInt> Rows<R> {
+impl<R: Word> Rows<R> {
     /// Whether the facets are exactly the boundary of the solid, each facing outward.
     pub(super) fn is_consistent(&self) -> bool {
-        let top = R::one().rotate_right(1);
+        let top = R::ONE << (R::BITS - 1);
         let nj = self.size[0];
         let bounds = |axis: usize, row: usize, below: R| {
             let (solid, marks) = (self.solid[row], &self.faces[axis]);

@@ -1,0 +1,66 @@
+//! How many chains of annealing there are, where they begin, and how long they are.
+
+use super::Effort;
+use super::anneal::{Landscape, Schedule, State};
+use super::front::Front;
+use crate::context::Context;
+use crate::error::{Error, ErrorKind, Result};
+
+/// The first chains, two from the result of Algorithm 1 and two from that of greedy merging, of which one each minds displacement.
+const FIRST: [Schedule; 4] = [
+    Schedule { seed: 1, steps: 0, hot: 0.05, cold: 0.002, weight: 0.01, paired: false },
+    Schedule { seed: 2, steps: 0, hot: 0.1, cold: 0.002, weight: 0.01, paired: false },
+    Schedule { seed: 3, steps: 0, hot: 0.05, cold: 0.002, weight: 0.3, paired: false },
+    Schedule { seed: 4, steps: 0, hot: 0.05, cold: 0.002, weight: 2.0, paired: false },
+];
+
+/// The last chains, two by two from the coarsest state so far, cooler, with two levels at once. On large polycubes they find what
+/// single levels do not; small ones are done before.
+const LAST: [Schedule; 4] = {
+    const COOL: Schedule = Schedule { seed: 5, steps: 0, hot: 0.02, cold: 0.001, weight: 0.01, paired: true };
+    [COOL, Schedule { seed: 6, ..COOL }, Schedule { seed: 7, ..COOL }, Schedule { seed: 8, ..COOL }]
+};
+
+/// Walks all chains and leaves what they see in `front`, which must hold where they begin.
+pub fn walk(
+    landscape: &Landscape,
+    begin: &[State; 2],
+    effort: &Effort,
+    front: &mut Front,
+    context: &Context,
+) -> Result<()> {
+    let steps = landscape.affordable(effort.steps_per_level.saturating_mul(landscape.structure.levels.len() as u32));
+    let long = |schedule: Schedule| Schedule { steps, ..schedule };
+    for (half, pair) in FIRST.chunks(2).enumerate() {
+        let jobs = [0, 1].map(|i| (begin[i].clone(), long(pair[i])));
+        walk_two(landscape, jobs, front, &context.stage("search", 0.25 * half as f64, 0.25 * (half + 1) as f64))?;
+    }
+    for (half, pair) in LAST.chunks(2).enumerate() {
+        let Some(best) = front.states().next().cloned() else { return Ok(()) };
+        let jobs = [0, 1].map(|i| (best.clone(), long(pair[i])));
+        walk_two(
+            landscape,
+            jobs,
+            front,
+            &context.stage("search", 0.5 + 0.25 * half as f64, 0.75 + 0.25 * half as f64),
+        )?;
+    }
+    Ok(())
+}
+
+/// Two chains at a time. What they find does not depend on how they are scheduled.
+fn walk_two(landscape: &Landscape, jobs: [(State, Schedule); 2], front: &mut Front, context: &Context) -> Result<()> {
+    let walk = |(start, schedule): (State, Schedule)| {
+        let mut seen = Front::default();
+        landscape.chain()?.walk(start, &schedule, &mut seen, context).map(|()| seen)
+    };
+    let [own, other] = jobs;
+    let results = std::thread::scope(|scope| {
+        let other = scope.spawn(|| walk(other));
+        [Ok(walk(own)), other.join()]
+    });
+    for result in results {
+        front.join(result.map_err(|_| Error::new(ErrorKind::Internal, "a chain of the search failed"))??);
+    }
+    Ok(())
+}

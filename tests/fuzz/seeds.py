@@ -1,0 +1,62 @@
+"""Writes small files of every format into a folder, each after the byte that chooses its format in the target `files`."""
+
+import pathlib
+import sys
+
+POINTS = [(x, y, z) for z in (0, 1) for y in (0, 1) for x in (0, 1)]
+QUADS = [(0, 2, 3, 1), (4, 5, 7, 6), (0, 1, 5, 4), (2, 6, 7, 3), (0, 4, 6, 2), (1, 3, 7, 5)]
+HEX = (0, 1, 3, 2, 4, 5, 7, 6)
+
+
+def lines(rows):
+    return "".join(" ".join(map(str, row)) + "\n" for row in rows)
+
+
+def off(quads):
+    return f"OFF\n8 {len(quads)} 0\n" + lines(POINTS) + lines((len(q), *q) for q in quads)
+
+
+def obj(quads):
+    return lines(("v", *p) for p in POINTS) + lines(("f", *(v + 1 for v in q)) for q in quads)
+
+
+def ply(quads):
+    head = "ply\nformat ascii 1.0\nelement vertex 8\nproperty float x\nproperty float y\nproperty float z\n"
+    return head + "element face 6\nproperty list uchar int vertex_indices\nend_header\n" + lines(POINTS) + lines((4, *q) for q in quads)
+
+
+def stl(quads):
+    triangle = lambda a, b, c: "facet normal 0 0 0\nouter loop\n" + lines(("vertex", *POINTS[v]) for v in (a, b, c)) + "endloop\nendfacet\n"
+    return "solid\n" + "".join(triangle(a, b, c) + triangle(a, c, d) for a, b, c, d in quads) + "endsolid\n"
+
+
+def medit():
+    points = "MeshVersionFormatted 2\nDimension 3\nVertices\n8\n" + lines((*p, 0) for p in POINTS)
+    return points + "Hexahedra\n1\n" + lines([(*(v + 1 for v in HEX), 0)]) + "End\n"
+
+
+def vtk():
+    head = "# vtk DataFile Version 3.0\n\nASCII\nDATASET UNSTRUCTURED_GRID\nPOINTS 8 double\n" + lines(POINTS)
+    return head + "CELLS 1 9\n" + lines([(8, *HEX)]) + "CELL_TYPES 1\n12\nCELL_DATA 1\nSCALARS q double 1\nLOOKUP_TABLE default\n1\n"
+
+
+def vtu():
+    array = lambda kind, name, text, extra="": f'<DataArray type="{kind}" Name="{name}" {extra} format="ascii">{text}</DataArray>'
+    points = array("Float64", "Points", lines(POINTS), 'NumberOfComponents="3"')
+    cells = array("Int64", "connectivity", lines([HEX])) + array("Int64", "offsets", 8) + array("UInt8", "types", 12)
+    piece = f'<Piece NumberOfPoints="8" NumberOfCells="1"><Points>{points}</Points><Cells>{cells}</Cells></Piece>'
+    return f'<VTKFile type="UnstructuredGrid" version="0.1"><UnstructuredGrid>{piece}</UnstructuredGrid></VTKFile>'
+
+
+GUIDES = '{"fixed": [1], "together": [[0, 2]], "apart": [[3, 4]], "symmetry": [{"axis": 0, "at": 1.5}]}'
+
+
+def main(folder):
+    folder.mkdir(parents=True, exist_ok=True)
+    texts = [obj(QUADS), off(QUADS), ply(QUADS), stl(QUADS), medit(), vtk(), vtu(), "0\n1\n-1\n5\n", GUIDES]
+    for choice, text in enumerate(texts):
+        (folder / f"seed-{choice}").write_bytes(bytes([choice]) + text.encode())
+
+
+if __name__ == "__main__":
+    main(pathlib.Path(sys.argv[1]))
