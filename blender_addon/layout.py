@@ -5,7 +5,7 @@ import bpy
 import numpy as np
 from bpy.props import BoolProperty
 
-from . import colours, curves, jobs, quads, results, settings
+from . import colours, curves, jobs, panel, quads, results, settings
 
 
 class POLYCUBE_OT_show_layout(jobs.JobOperator, settings.SearchOptions, settings.ToleranceOptions, settings.MeshOptions,
@@ -43,7 +43,6 @@ class POLYCUBE_OT_show_layout(jobs.JobOperator, settings.SearchOptions, settings
         return shape, [results.new_object(context, shape, f"{shape.name} Layout", mesh)]
 
     def draw(self, _context):
-        from . import panel
         self.layout.use_property_split = True
         self.layout.prop(self, "cage")
         panel.draw_search(self.layout, self)

@@ -5,7 +5,7 @@ import bpy
 import numpy as np
 import polycube
 
-from . import colours, curves, jobs, live, results, settings, simplify, source, transfer
+from . import colours, curves, jobs, live, panel, results, settings, simplify, source, transfer
 
 
 class POLYCUBE_OT_quad_remesh(jobs.JobOperator, settings.SearchOptions, settings.ToleranceOptions, settings.MeshOptions,
@@ -27,7 +27,6 @@ class POLYCUBE_OT_quad_remesh(jobs.JobOperator, settings.SearchOptions, settings
         finish(self, context, read, [obj, *lines], meshes)
 
     def draw(self, _context):
-        from . import panel
         panel.draw_search(self.layout, self)
         panel.draw_size(self.layout, self)
 

@@ -22,6 +22,16 @@ from . import colours, live
 # Operators shall not remember what they were given last: the panel says what is asked for.
 FORGET = {'SKIP_SAVE'}
 
+SIMPLICITY = {
+    "name": "Simplicity",
+    "description": "From 0, facets stay as near as they can to where they are, to 1, the fewest blocks. After Simplify "
+    "it moves along what the search has found and changes the result at once",
+    "min": 0.0,
+    "max": 1.0,
+    "default": 1.0,
+    "subtype": 'FACTOR',
+}
+
 
 def is_mesh(_settings, obj):
     """What the panel offers as a shape or polycube."""
@@ -71,16 +81,7 @@ class SearchOptions(Options):
         default='surface_patches',
         options=FORGET,
     )
-    simplicity: FloatProperty(
-        name="Simplicity",
-        description="From 0, facets stay as near as they can to where they are, to 1, the fewest blocks. After "
-        "Simplify it moves along what the search has found and changes the result at once",
-        min=0.0,
-        max=1.0,
-        default=1.0,
-        subtype='FACTOR',
-        options=FORGET,
-    )
+    simplicity: FloatProperty(**SIMPLICITY, options=FORGET)
     max_displacement: FloatProperty(
         name="Farthest Move",
         description="The farthest that a corner of the polycube may move, in scene units. 0 for as far as it takes; "
@@ -301,16 +302,7 @@ class Result(bpy.types.PropertyGroup):
 class PolycubeSettings(Inputs, SimplifyOptions, VolumeOptions, bpy.types.PropertyGroup):
     """The panel's settings: `scene.polycube`."""
 
-    simplicity: FloatProperty(
-        name="Simplicity",
-        description="From 0, facets stay as near as they can to where they are, to 1, the fewest blocks. After "
-        "Simplify it moves along what the search has found and changes the result at once",
-        min=0.0,
-        max=1.0,
-        default=1.0,
-        subtype='FACTOR',
-        update=live.slide,
-    )
+    simplicity: FloatProperty(**SIMPLICITY, update=live.slide)
     colour: EnumProperty(
         name="Colour",
         description="What the colours of the results show",

@@ -4,7 +4,7 @@
 import bpy
 import polycube
 
-from . import faults, jobs, live, results, settings, source
+from . import jobs, live, panel, results, settings, source
 
 
 class POLYCUBE_OT_simplify(jobs.JobOperator, settings.SimplifyOptions, bpy.types.Operator):
@@ -32,7 +32,6 @@ class POLYCUBE_OT_simplify(jobs.JobOperator, settings.SimplifyOptions, bpy.types
             self.report({'WARNING'}, note)
 
     def draw(self, _context):
-        from . import panel
         panel.draw_search(self.layout, self)
         panel.draw_lattice(self.layout, self)
 
