@@ -4,6 +4,7 @@ POLYCUBE_COMMAND        the command `polycube`
 POLYCUBE_PYMESHLAB      the plugin for PyMeshLab; tests of it are skipped without
 POLYCUBE_MESHLABSERVER  a meshlabserver 2020.09 that has the plugin; tests of it are skipped without
 POLYCUBE_MODULE         the plugin for the program MeshLab 2025.07; tests of it are skipped without
+POLYCUBE_MODULE_2020    the plugin for the program MeshLab 2020.09
 """
 
 import os

@@ -17,10 +17,9 @@ def test_the_module_stands_alone():
     assert needed <= host | system and "libmeshlab-common.so" in needed
 
 
-def test_the_module_is_for_2025_07_in_single_precision():
+def test_the_module_counts_in_single_precision():
     symbols = run("nm", "-DC", required("POLYCUBE_MODULE"))
     assert re.search(r" T qt_plugin_instance", symbols)
-    assert b"2025.07\0" in required("POLYCUBE_MODULE").read_bytes()
     assert "vcg::Point3<double>" not in symbols
 
 

@@ -78,6 +78,13 @@ def test_all_filters_have_their_names():
     assert FILTERS <= set(ml.filter_list())
 
 
+def test_modules_for_another_meshlab_are_refused_by_name():
+    with pytest.raises(ml.PyMeshLabException, match="different floating point precision"):
+        ml.load_plugin(str(required("POLYCUBE_MODULE")))
+    with pytest.raises(ml.PyMeshLabException, match="is not a MeshLab plugin"):
+        ml.load_plugin(str(required("POLYCUBE_MODULE_2020")))
+
+
 def test_the_example_makes_a_pair():
     layers = ml.MeshSet()
     values = layers.apply_filter("create_polycube_example", example="ring", seed=2)
