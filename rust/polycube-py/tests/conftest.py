@@ -1,6 +1,7 @@
 """What the tests share: example pairs, the command to compare with, and meshes that are wrong in one way each."""
 
 import os
+import signal
 import subprocess
 from pathlib import Path
 
@@ -10,6 +11,10 @@ import pytest
 import polycube
 
 ROOT = Path(__file__).resolve().parents[3]
+
+
+# A shell that starts the tests in the background leaves SIGINT ignored, and Python then does not listen to it.
+signal.signal(signal.SIGINT, signal.default_int_handler)
 
 
 @pytest.fixture(scope="session")
