@@ -126,7 +126,6 @@ fn solids_that_never_meet_count_as_much_together_as_alone() {
 
 /// More levels than 126 on every axis, which the rows of the search once could not hold.
 #[test]
-#[ignore = "minutes of search; not yet timed on a quiet machine"]
 fn polycubes_of_a_thousand_corners_are_searched() {
     let voxels = random_with_corners(1, 1000).expect("a random polycube");
     let polycube = read(&coarse(&voxels, CellKind::Quads));

@@ -53,7 +53,7 @@ pub struct Landscape<'a> {
 
 impl<'a> Landscape<'a> {
     /// How much work one chain or one greedy merging may be, in words of bits looked at: a few seconds.
-    const WORK: usize = 4_000_000_000;
+    const WORK: usize = 100_000_000;
 
     /// A walker; its work space is made once.
     pub fn chain(&'a self) -> Result<Chain<'a>> {
