@@ -16,7 +16,10 @@ std::string bytes(const std::string& path) {
 }
 
 // Whether `file`, which `write` writes to the folder `own`, is as the command wrote it to `theirs`.
-void same(const std::string& own, const std::string& theirs) { CHECK_MESSAGE(bytes(own) == bytes(theirs), theirs); }
+void same(const std::string& own, const std::string& theirs) {
+    const bool equal = bytes(own) == bytes(theirs);
+    CHECK_MESSAGE(equal, theirs);
+}
 
 void run(const std::string& arguments) {
     const int status = std::system((std::string(POLYCUBE_COMMAND) + " " + arguments).c_str());

@@ -10,7 +10,6 @@ mod base_complex;
 mod choose;
 mod climb;
 mod embedding;
-mod fit;
 mod grid;
 mod hausdorff;
 mod hexes;

@@ -2,7 +2,6 @@
 
 use super::choose::{Start, choose};
 use super::climb::{Rung, finish};
-use super::fit::fit;
 use super::report::{RemeshReport, Stages, cells_of, diagonal, measure};
 
 use super::{Hexes, Layout, Quads, Remesher, Size, untangle};
@@ -145,10 +144,7 @@ fn mesh(
     }
     let mut hexes = remesher.hexes(options.padding, &context.stage("mesh", 0.1, 0.2))?;
     stages.mesh = start.elapsed().as_secs_f64();
-    let released = finish(rung, &remesher, &mut hexes, options, &context.stage("optimise", 0.2, 0.9))?;
-    let quadrilaterals = remesher.surface_quads(options.padding);
-    let bound = options.max_hausdorff * diagonal(shape);
-    fit(&mut hexes, &quadrilaterals, shape, bound, &context.stage("fit", 0.9, 1.0))?;
+    let released = finish(rung, &remesher, &mut hexes, options, &context.stage("optimise", 0.2, 1.0))?;
     stages.optimise = start.elapsed().as_secs_f64() - stages.mesh;
     quads.mesh.points = remesher.surface_of(&hexes.mesh.points, options.padding);
     let layout = remesher.layout(&hexes.mesh.points, options.padding)?;

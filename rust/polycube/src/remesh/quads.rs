@@ -2,7 +2,6 @@
 
 use super::Remesher;
 use super::embedding::Embedding;
-use super::padding::Padding;
 use super::site::Site;
 use crate::context::Context;
 use crate::error::Result;
@@ -104,13 +103,6 @@ impl Remesher<'_> {
             // The outermost layer comes last.
             _ => points[points.len() - ring.len()..].to_vec(),
         }
-    }
-
-    /// The surface's quadrilaterals over the vertices of [`hexes`](Self::hexes) with this `padding`.
-    pub(super) fn surface_quads(&self, padding: usize) -> Vec<[u32; 4]> {
-        let layers = Padding::new(&self.grid, padding);
-        let outermost = |v| layers.number(&self.grid, v, padding);
-        self.grid.squares.iter().map(|s| s.vertices.map(outermost)).collect()
     }
 
     /// The lattice's vertices with those on the surface put on the shape.
