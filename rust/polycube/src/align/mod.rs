@@ -27,7 +27,7 @@ use crate::context::Context;
 use crate::error::{Error, ErrorKind, Result};
 use crate::layout::{Counts, count};
 use crate::structure::{Arrangement, Conflict, Placement, Structure};
-use guides::{Guided, guided_start};
+use guides::{Guided, guided_start, is_valid};
 use place::place_in_order;
 use problem::Problem;
 use ranks::Ranks;
@@ -103,8 +103,7 @@ pub fn align(structure: &Structure, input: &[f64], options: &Options, context: &
 /// The alignment, if its levels are a valid polycube by the exact check.
 fn checked(structure: &Structure, found: Alignment) -> Result<Alignment> {
     let placement: Placement = found.levels.iter().map(|&x| x as f64).collect();
-    let arrangement = Arrangement::new(structure, &placement);
-    if arrangement.conflicts().is_empty() && arrangement.inside_out().is_empty() {
+    if is_valid(structure, &placement) {
         return Ok(found);
     }
     Err(Error::new(ErrorKind::Internal, "the polycube found touches itself"))
