@@ -5,6 +5,9 @@ use super::ranks::Ranks;
 use crate::layout::{Counter, Counts, Objective, count, counter};
 use crate::structure::{Arrangement, Structure};
 
+/// Up to this many words [`Counter::counts`] is faster than the exact arrangement: patches are what takes long on rows.
+const FEW_WORDS: usize = 4096;
+
 /// Says whether an order is valid, and what it costs. Makes its work space once.
 pub struct Judge<'a> {
     structure: &'a Structure,
@@ -27,10 +30,14 @@ impl<'a> Judge<'a> {
 
     /// All three numbers, nothing for an order that is not valid.
     pub fn counts(&mut self, ranks: &Ranks) -> Option<Counts> {
-        match &mut self.rows {
+        match self.few_rows() {
             Some(rows) => rows.counts(&ranks.of_level, ranks.planes),
             None => self.counts_slowly(ranks),
         }
+    }
+
+    fn few_rows(&mut self) -> Option<&mut Box<dyn Counter>> {
+        self.rows.as_mut().filter(|rows| rows.words() <= FEW_WORDS)
     }
 
     /// Whether the order is known to be valid; one that is too long for rows of bits is not.
@@ -40,15 +47,16 @@ impl<'a> Judge<'a> {
 
     /// All three numbers of a placement that is known to be valid.
     pub fn counts_of(&mut self, placement: &[f64]) -> Counts {
-        let quick = self.rows.as_mut().and_then(|rows| {
-            let ranks = Ranks::new(self.structure, placement);
+        let structure = self.structure;
+        let quick = self.few_rows().and_then(|rows| {
+            let ranks = Ranks::new(structure, placement);
             rows.counts(&ranks.of_level, ranks.planes)
         });
-        quick.unwrap_or_else(|| count(&Arrangement::new(self.structure, placement)))
+        quick.unwrap_or_else(|| count(&Arrangement::new(structure, placement)))
     }
 
     fn counts_slowly(&self, ranks: &Ranks) -> Option<Counts> {
-        let placement = ranks.placement();
-        is_valid(self.structure, &placement).then(|| count(&Arrangement::new(self.structure, &placement)))
+        let arrangement = Arrangement::new(self.structure, &ranks.placement());
+        is_valid(&arrangement).then(|| count(&arrangement))
     }
 }

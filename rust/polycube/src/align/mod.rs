@@ -28,6 +28,7 @@ use crate::error::{Error, ErrorKind, Result};
 use crate::layout::{Counts, count};
 use crate::structure::{Arrangement, Conflict, Placement, Structure};
 use guides::{Guided, guided_start, is_valid};
+use judge::Judge;
 use place::place_in_order;
 use problem::Problem;
 use ranks::Ranks;
@@ -87,12 +88,8 @@ pub struct TradeOff {
 /// contradict each other, [`ErrorKind::Polycube`] for an input that touches itself, [`ErrorKind::Infeasible`] if no valid polycube with no
 /// more blocks is found that respects the guides, [`ErrorKind::Cancelled`].
 pub fn align(structure: &Structure, input: &[f64], options: &Options, context: &Context) -> Result<Alignment> {
-    let arrangement = Arrangement::new(structure, input);
-    if !arrangement.conflicts().is_empty() {
-        return Err(Error::new(ErrorKind::Polycube, "the polycube touches or crosses itself")
-            .remedy("validate it to see where, and move the parts apart"));
-    }
-    let task = Task::new(structure, input, count(&arrangement), options, context)?;
+    let before = counts_before(structure, input)?;
+    let task = Task::new(structure, input, before, options, context)?;
     match options.strategy {
         Strategy::Naive => naive(&task),
         Strategy::Paper => checked(structure, paper::simplify(&task, context)?),
@@ -100,10 +97,23 @@ pub fn align(structure: &Structure, input: &[f64], options: &Options, context: &
     }
 }
 
+/// The counts of the input, which must not touch itself.
+fn counts_before(structure: &Structure, input: &[f64]) -> Result<Counts> {
+    if let Some(counts) = Judge::new(structure).counts(&Ranks::new(structure, input)) {
+        return Ok(counts);
+    }
+    let arrangement = Arrangement::new(structure, input);
+    if !arrangement.conflicts().is_empty() {
+        return Err(Error::new(ErrorKind::Polycube, "the polycube touches or crosses itself")
+            .remedy("validate it to see where, and move the parts apart"));
+    }
+    Ok(count(&arrangement))
+}
+
 /// The alignment, if its levels are a valid polycube by the exact check.
 fn checked(structure: &Structure, found: Alignment) -> Result<Alignment> {
     let placement: Placement = found.levels.iter().map(|&x| x as f64).collect();
-    if is_valid(structure, &placement) {
+    if is_valid(&Arrangement::new(structure, &placement)) {
         return Ok(found);
     }
     Err(Error::new(ErrorKind::Internal, "the polycube found touches itself"))

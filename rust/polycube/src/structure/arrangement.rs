@@ -4,6 +4,7 @@ use super::boxes::Boxes;
 use super::rectangles::rectangles;
 use super::{Edge, Structure};
 use rayon::prelude::*;
+use std::sync::OnceLock;
 
 /// A box of the lattice by the levels of its sides; `low` and `high` are equal along an axis where it is flat.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -40,7 +41,8 @@ pub struct Arrangement<'a> {
     tiles: Vec<Tile>,
     /// The tiles across each axis.
     tile_index: [Boxes; 3],
-    edge_index: Boxes,
+    /// The edges, made when first asked for: only looking for conflicts needs them.
+    edge_index: OnceLock<Boxes>,
     folded: Vec<u32>,
 }
 
@@ -62,8 +64,7 @@ impl<'a> Arrangement<'a> {
             let across = |t: &(u32, &Tile)| structure.facets[t.1.facet as usize].label.axis() == axis;
             Boxes::new((0..).zip(&tiles).filter(across).map(|(i, t)| (i, extent(&t.levels))))
         });
-        let edge_index = Boxes::new((0..).zip(&structure.edges).map(|(i, e)| (i, extent(&structure.edge_box(e)))));
-        Self { structure, placement, tiles, tile_index, edge_index, folded }
+        Self { structure, placement, tiles, tile_index, edge_index: OnceLock::new(), folded }
     }
 
     /// The structure put in place.
@@ -186,6 +187,12 @@ impl<'a> Arrangement<'a> {
         if label.axis() == 0 { f64::from(label.sign()) * low[0] * (high[1] - low[1]) * (high[2] - low[2]) } else { 0.0 }
     }
 
+    fn edge_index(&self) -> &Boxes {
+        let extent = |e: &Edge| self.structure.extent(&self.structure.edge_box(e), &self.placement);
+        let edges = || (0..).zip(&self.structure.edges).map(|(i, e)| (i, extent(e)));
+        self.edge_index.get_or_init(|| Boxes::new(edges()))
+    }
+
     fn folded_facet(&self, facet: u32) -> Conflict {
         let side = self.structure.facets[facet as usize].loops[0][0];
         let corner = self.structure.edges[side.edge as usize].corners[0];
@@ -195,7 +202,7 @@ impl<'a> Arrangement<'a> {
     fn edge_conflicts(&self, i: u32, edge: &Edge) -> impl Iterator<Item = Conflict> {
         let (low, high) = self.structure.extent(&self.structure.edge_box(edge), &self.placement);
         let (mut edges, mut tiles) = (Vec::new(), Vec::new());
-        self.edge_index.meeting(low, high, |j| {
+        self.edge_index().meeting(low, high, |j| {
             let conflict = if j > i { self.edge_meets_edge(edge, j) } else { None };
             edges.extend(conflict.map(|c| (j, c)));
         });

@@ -28,6 +28,14 @@ pub struct Guided {
     any: bool,
 }
 
+/// For each of the `levels` the others of its class, ascending.
+fn partners(classes: &Classes, levels: usize) -> Vec<Vec<u32>> {
+    let mut members = vec![Vec::new(); levels];
+    (0..levels as u32).for_each(|l| members[classes.of(l) as usize].push(l));
+    let others = |l: u32| members[classes.of(l) as usize].iter().copied().filter(|&m| m != l).collect();
+    (0..levels as u32).map(others).collect()
+}
+
 /// A plane of symmetry across an axis.
 pub struct Mirror {
     /// The image of each level; those of other axes have themselves.
@@ -70,10 +78,7 @@ impl Guided {
         }
         guided.check_edges(structure)?;
         guided.check_fixed(structure)?;
-        for l in 0..guided.axis_of.len() as u32 {
-            let same = |&m: &u32| m != l && guided.classes.of(m) == guided.classes.of(l);
-            guided.partners[l as usize] = (0..guided.axis_of.len() as u32).filter(same).collect();
-        }
+        guided.partners = partners(&guided.classes, structure.levels.len());
         Ok(guided)
     }
 

@@ -23,15 +23,14 @@ pub fn guided_start(structure: &Structure, input: &[f64], guided: &Guided, conte
     }
     let averaged = guided.averaged(structure, input);
     let ranks = Ranks::new(structure, &averaged);
-    if guided.allows(&ranks) && is_valid(structure, &averaged) {
+    if guided.allows(&ranks) && is_valid(&Arrangement::new(structure, &averaged)) {
         return Ok(averaged);
     }
     repaired(structure, input, guided, context)
 }
 
 /// Whether the surface is embedded with its solid side inside.
-pub fn is_valid(structure: &Structure, placement: &[f64]) -> bool {
-    let arrangement = Arrangement::new(structure, placement);
+pub fn is_valid(arrangement: &Arrangement) -> bool {
     arrangement.conflicts().is_empty() && arrangement.inside_out().is_empty()
 }
 

@@ -12,7 +12,8 @@ use rayon::prelude::*;
 pub fn structural(arrangement: &Arrangement) -> Vec<Difference> {
     let edges = &arrangement.structure().edges;
     let mut differences: Vec<Difference> = edges.iter().map(|e| length(arrangement, e)).collect();
-    let dummies = |edge: &Edge| [false, true].map(|upwards| dummy(arrangement, edge, upwards)).concat();
+    let dummies =
+        |edge: &Edge| [false, true].map(|upwards| dummy(arrangement, edge, upwards)).into_iter().flatten().flatten();
     differences.par_extend(edges.par_iter().with_min_len(512).flat_map_iter(dummies));
     differences.sort_unstable_by_key(|d| (d.low, d.high, d.gap));
     differences.dedup();
@@ -25,18 +26,15 @@ fn length(arrangement: &Arrangement, edge: &Edge) -> Difference {
 }
 
 /// The differences of the dummy edge that goes on from one end of `edge`, if a facet lies there.
-fn dummy(arrangement: &Arrangement, edge: &Edge, upwards: bool) -> Vec<Difference> {
+fn dummy(arrangement: &Arrangement, edge: &Edge, upwards: bool) -> Option<[Difference; 5]> {
     let structure = arrangement.structure();
     let corner = &structure.corners[edge.corners[usize::from(upwards)] as usize];
     let from = structure.position(edge.corners[usize::from(upwards)], arrangement.placement());
-    let Some((facet, sides)) = arrangement.first_hit(from, edge.axis, upwards) else { return Vec::new() };
+    let (facet, sides) = arrangement.first_hit(from, edge.axis, upwards)?;
     let (end, hit) = (corner.levels[edge.axis], structure.facets[facet as usize].level);
     let (low, high) = if upwards { (end, hit) } else { (hit, end) };
-    let mut differences = vec![Difference { low, high, gap: 1 }];
-    for across in (0..3).filter(|&a| a != edge.axis) {
-        let line = corner.levels[across];
-        differences.push(Difference { low: sides.low[across], high: line, gap: 0 });
-        differences.push(Difference { low: line, high: sides.high[across], gap: 0 });
-    }
-    differences
+    let [u, v] = [(edge.axis + 1) % 3, (edge.axis + 2) % 3];
+    let below = |across: usize| Difference { low: sides.low[across], high: corner.levels[across], gap: 0 };
+    let above = |across: usize| Difference { low: corner.levels[across], high: sides.high[across], gap: 0 };
+    Some([Difference { low, high, gap: 1 }, below(u), above(u), below(v), above(v)])
 }

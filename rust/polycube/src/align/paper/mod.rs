@@ -19,7 +19,7 @@ use crate::error::Result;
 use crate::layout::Counts;
 use crate::structure::{Arrangement, Placement, Structure};
 use constraints::structural;
-use pairs::{candidates, visible_neighbours};
+use pairs::{candidates, near_corners};
 
 /// One round of Algorithm 1.
 #[derive(Clone, Debug, PartialEq, serde::Serialize)]
@@ -156,10 +156,9 @@ impl State<'_, '_> {
 
     fn make_plan(&self, context: &Context) -> Result<Plan> {
         let arrangement = Arrangement::new(self.outcome.structure, &self.outcome.placement);
-        let (mut differences, neighbours) =
-            rayon::join(|| structural(&arrangement), || visible_neighbours(&arrangement, context));
+        let (mut differences, near) = rayon::join(|| structural(&arrangement), || near_corners(&arrangement, context));
         differences.extend(self.settings.guided.differences(arrangement.placement()));
-        let pairs = candidates(&arrangement, &neighbours?, &self.outcome.classes, &differences);
+        let pairs = candidates(&arrangement, &near?, &self.outcome.classes, &differences);
         let planes = if self.settings.oblique_planes {
             pairs.iter().flat_map(|p| self.oblique(p)).collect()
         } else {

@@ -25,41 +25,71 @@ impl Pair {
 }
 
 /// Corners with adjacent Voronoi cells, without (a) the two ends of an edge, (b) two corners with a common
-/// edge-neighbour, (c) pairs whose middle lies outside the polycube.
-pub fn visible_neighbours(arrangement: &Arrangement, context: &Context) -> Result<Vec<[u32; 2]>> {
+/// edge-neighbour.
+pub fn near_corners(arrangement: &Arrangement, context: &Context) -> Result<Vec<[u32; 2]>> {
     let structure = arrangement.structure();
-    let positions = positions(arrangement);
-    let mut near = neighbours(&on_grid(&positions), context)?;
+    let mut near = neighbours(&on_grid(&positions(arrangement)), context)?;
     let beside = edge_neighbours(structure);
     near.retain(|&[a, b]| {
         let (at_a, at_b) = (&beside[a as usize], &beside[b as usize]);
         !at_a.contains(&b) && !at_a.iter().any(|c| at_b.contains(c))
     });
-    let middle =
-        |[a, b]: [u32; 2]| std::array::from_fn(|k| f64::midpoint(positions[a as usize][k], positions[b as usize][k]));
-    Ok(near.into_par_iter().with_min_len(1024).filter(|&pair| arrangement.contains(middle(pair))).collect())
+    Ok(near)
 }
 
-/// For every corner and axis the nearest of its `neighbours` that it can align with, each pair once, ascending.
+/// For every corner and axis the nearest of the `near` corners that it can align with, each pair once, ascending; of
+/// equally near ones the first.
 ///
-/// Along an axis a pair can align if its levels are not aligned yet, if `differences` do not force them apart, and if
-/// another axis is left to keep the corners apart.
+/// Along an axis a pair can align if its levels are not aligned yet, if another axis is left to keep the corners apart, if
+/// `differences` do not force them apart, and if (c) its middle lies inside the polycube. The last two take longest and
+/// are asked only of pairs that are nearer than what is known.
 pub fn candidates(
     arrangement: &Arrangement,
-    neighbours: &[[u32; 2]],
+    near: &[[u32; 2]],
     classes: &Classes,
     differences: &[Difference],
 ) -> Vec<Pair> {
-    let structure = arrangement.structure();
-    let positions = positions(arrangement);
-    let order = Order::new(classes, differences, arrangement.placement());
-    let mut pairs = Vec::new();
-    for axis in 0..3 {
-        nearest(structure, &positions, neighbours, axis, &order, classes, &mut pairs);
-    }
+    // Few corners take less time than another thread takes to begin.
+    let together = if near.len() < 8192 { 3 } else { 1 };
+    let alignable =
+        |axis| nearest(arrangement, near, axis, classes, Order::new(arrangement, axis, classes, differences));
+    let mut pairs: Vec<Pair> = (0..3).into_par_iter().with_min_len(together).flat_map_iter(alignable).collect();
     pairs.sort_unstable();
     pairs.dedup();
     pairs
+}
+
+/// The nearest corner along `axis` that each corner can align with, if any.
+fn nearest(
+    arrangement: &Arrangement,
+    near: &[[u32; 2]],
+    axis: usize,
+    classes: &Classes,
+    mut order: Order,
+) -> impl Iterator<Item = Pair> {
+    let structure = arrangement.structure();
+    let positions = positions(arrangement);
+    let mut best: Vec<Option<(f64, Pair)>> = vec![None; positions.len()];
+    for &corners in near {
+        let pair = Pair { axis, corners };
+        let [a, b] = pair.levels(structure).map(|l| classes.of(l));
+        let [p, q] = corners.map(|c| positions[c as usize]);
+        let distance = (p[axis] - q[axis]).abs();
+        let nearer = corners.map(|c| best[c as usize].is_none_or(|(d, _)| distance < d));
+        let separable = (0..3).any(|k| k != axis && p[k] != q[k]);
+        if a == b || !separable || nearer == [false; 2] || order.forces_apart(a, b) {
+            continue;
+        }
+        if arrangement.contains(middle(p, q)) {
+            let ends = corners.iter().zip(nearer).filter(|(_, nearer)| *nearer);
+            ends.for_each(|(&c, _)| best[c as usize] = Some((distance, pair)));
+        }
+    }
+    best.into_iter().flatten().map(|(_, pair)| pair)
+}
+
+fn middle(p: [f64; 3], q: [f64; 3]) -> [f64; 3] {
+    std::array::from_fn(|k| f64::midpoint(p[k], q[k]))
 }
 
 fn positions(arrangement: &Arrangement) -> Vec<[f64; 3]> {
@@ -81,71 +111,60 @@ fn edge_neighbours(structure: &Structure) -> Vec<Vec<u32>> {
     beside
 }
 
-/// Adds the nearest alignable neighbour of every corner along `axis`; of equally near ones the first.
-fn nearest(
-    structure: &Structure,
-    positions: &[[f64; 3]],
-    near: &[[u32; 2]],
-    axis: usize,
-    order: &Order,
-    classes: &Classes,
-    pairs: &mut Vec<Pair>,
-) {
-    let mut best: Vec<Option<(f64, Pair)>> = vec![None; positions.len()];
-    for &corners in near {
-        let pair = Pair { axis, corners };
-        let [a, b] = pair.levels(structure).map(|l| classes.of(l));
-        let [p, q] = corners.map(|c| positions[c as usize]);
-        let separable = (0..3).any(|k| k != axis && p[k] != q[k]);
-        if a == b || !separable || order.forces_apart(a, b) {
-            continue;
-        }
-        let distance = (p[axis] - q[axis]).abs();
-        for c in corners {
-            let entry = &mut best[c as usize];
-            if entry.is_none_or(|(d, _)| distance < d) {
-                *entry = Some((distance, pair));
-            }
-        }
-    }
-    pairs.extend(best.into_iter().flatten().map(|(_, pair)| pair));
-}
-
-/// The order that the differences impose on classes.
+/// The order that the differences impose on the classes of one axis.
 struct Order<'a> {
     /// For every class, the classes above it and whether they must be strictly above.
     above: Vec<Vec<(u32, bool)>>,
     placement: &'a [f64],
+    /// The number of the question in which a class was last reached, by a chain without and with a strict step.
+    seen: Vec<[u32; 2]>,
+    question: u32,
+    /// What the present question has reached.
+    reached: Vec<(u32, bool)>,
 }
 
 impl<'a> Order<'a> {
-    fn new(classes: &Classes, differences: &[Difference], placement: &'a [f64]) -> Self {
+    fn new(arrangement: &'a Arrangement, axis: usize, classes: &Classes, differences: &[Difference]) -> Self {
+        let (structure, placement) = (arrangement.structure(), arrangement.placement());
         let mut above = vec![Vec::new(); placement.len()];
-        for d in differences {
+        for d in differences.iter().filter(|d| structure.levels[d.low as usize].axis == axis) {
             let (low, high) = (classes.of(d.low), classes.of(d.high));
             above[low as usize].push((high, d.gap > 0));
         }
-        Self { above, placement }
+        Self { above, placement, seen: vec![[0; 2]; placement.len()], question: 0, reached: Vec::new() }
     }
 
     /// Whether a chain of differences keeps the two classes strictly apart.
-    fn forces_apart(&self, a: u32, b: u32) -> bool {
+    fn forces_apart(&mut self, a: u32, b: u32) -> bool {
         let at = |c: u32| self.placement[c as usize];
         let (low, high) = if at(a) <= at(b) { (a, b) } else { (b, a) };
-        let mut seen = vec![(low, false)];
+        let end = at(high);
+        if at(low) == end {
+            return false; // What is strictly above lies strictly higher.
+        }
+        self.question += 1;
+        self.reached.clear();
+        self.reach(low, false);
         let mut next = 0;
-        while let Some(&(class, strict)) = seen.get(next) {
+        while let Some(&(class, strict)) = self.reached.get(next) {
             next += 1;
-            for &(up, gap) in &self.above[class as usize] {
-                let state = (up, strict || gap);
-                if state == (high, true) {
+            for i in 0..self.above[class as usize].len() {
+                let (up, gap) = self.above[class as usize][i];
+                if (up, strict || gap) == (high, true) {
                     return true;
                 }
-                if at(up) <= at(high) && !seen.contains(&state) {
-                    seen.push(state);
+                if self.placement[up as usize] <= end {
+                    self.reach(up, strict || gap);
                 }
             }
         }
         false
+    }
+
+    fn reach(&mut self, class: u32, strict: bool) {
+        let seen = &mut self.seen[class as usize][usize::from(strict)];
+        if std::mem::replace(seen, self.question) != self.question {
+            self.reached.push((class, strict));
+        }
     }
 }

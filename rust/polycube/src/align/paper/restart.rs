@@ -10,7 +10,7 @@ use crate::align::{Alignment, SolverKind, Task};
 use crate::context::Context;
 use crate::error::Result;
 use crate::layout::Counts;
-use crate::structure::{Placement, Structure};
+use crate::structure::{Arrangement, Placement, Structure};
 use rayon::prelude::*;
 
 /// Algorithm 1 from λ = 1 again and again until it finds nothing more, so that a second call changes nothing.
@@ -18,7 +18,9 @@ use rayon::prelude::*;
 /// # Errors
 /// [`ErrorKind::Infeasible`](crate::ErrorKind::Infeasible) if what the guides ask for has more blocks than the input.
 pub fn simplify(task: &Task, context: &Context) -> Result<Alignment> {
-    let Descent { levels, after, rounds } = descend(task, &task.targets, &task.guided, context)?;
+    // On a worker of the pool, so that what is done side by side in each round starts without waking it.
+    let descent = rayon::scope(|_| descend(task, &task.targets, &task.guided, context));
+    let Descent { levels, after, rounds } = descent?;
     task.check_blocks(&after)?;
     Ok(Alignment {
         levels,
@@ -53,21 +55,21 @@ pub fn descend(task: &Task, targets: &[f64], placing: &Guided, context: &Context
     let mut best = place(&task.start)?;
     let mut judge = Judge::new(structure);
     let mut after = if task.start == task.input { task.before } else { judge.counts_of(&task.start) };
-    let mut rounds = Vec::new();
+    let mut taken = Vec::new();
     let mut from = task.start.clone();
     loop {
         let (found, steps) = improve(task, &from, &settings, context)?;
         let counts = found.as_ref().map(|f| judge.counts_of(f));
         let improved = counts.filter(|c| c.blocks_padded < after.blocks_padded);
-        if rounds.is_empty() || improved.is_some() {
-            rounds.extend(counted(structure, steps));
+        if taken.is_empty() || improved.is_some() {
+            taken.extend(steps);
         }
         let (Some(found), Some(counts)) = (found, improved) else { break };
         best = place(&found)?;
         from = best.iter().map(|&x| x as f64).collect();
         after = counts;
     }
-    Ok(Descent { levels: best, after, rounds })
+    Ok(Descent { levels: best, after, rounds: counted(structure, taken) })
 }
 
 /// One run of Algorithm 1 on `from`, settled near the start or, if only that is as coarse, near `from`; nothing if the guides do
@@ -81,12 +83,15 @@ fn improve(
     let structure = task.structure;
     let own = Unit::of(structure, from).apply(structure, from);
     let outcome = run(structure, &own, settings, context)?;
-    let near = guided(task, outcome.settle(&own, settings.solver, context)?);
+    let settle = |targets: &[f64]| -> Result<Option<Placement>> {
+        Ok(guided(task, outcome.settle(targets, settings.solver, context)?))
+    };
     if from == task.start {
-        return Ok((near, outcome.steps));
+        return Ok((settle(&own)?, outcome.steps));
     }
     let original = Unit::of(structure, &task.start).apply(structure, &task.start);
-    let faithful = guided(task, outcome.settle(&original, settings.solver, context)?);
+    let (near, faithful) = rayon::join(|| settle(&own), || settle(&original));
+    let (near, faithful) = (near?, faithful?);
     let mut judge = Judge::new(structure);
     let mut blocks = |p: &Option<Placement>| p.as_ref().map_or(usize::MAX, |p| judge.counts_of(p).blocks_padded);
     let coarser = blocks(&faithful) <= blocks(&near);
@@ -101,7 +106,7 @@ fn guided(task: &Task, found: Placement) -> Option<Placement> {
         return Some(found);
     }
     let averaged: Placement = task.guided.averaged(structure, &found);
-    (allowed(&averaged) && is_valid(structure, &averaged)).then_some(averaged)
+    (allowed(&averaged) && is_valid(&Arrangement::new(structure, &averaged))).then_some(averaged)
 }
 
 /// The steps with what their results count.
@@ -111,5 +116,5 @@ fn counted(structure: &Structure, steps: Vec<Step>) -> Vec<Round> {
         let placement: Placement = levels.iter().map(|&x| x as f64).collect();
         Round { lambda, pairs, alignments, counts: judge.counts_of(&placement), levels }
     };
-    steps.into_par_iter().with_min_len(4).map_init(|| Judge::new(structure), round).collect()
+    steps.into_par_iter().map_init(|| Judge::new(structure), round).collect()
 }

@@ -36,7 +36,7 @@ pub struct Solution {
 }
 
 /// Something that solves a [`Problem`] to optimality.
-pub trait Solver {
+pub trait Solver: Sync {
     /// Minimises the cost of `problem`.
     ///
     /// `start` is where the search begins: the nearer to the optimum, the fewer steps. If it breaks a difference a

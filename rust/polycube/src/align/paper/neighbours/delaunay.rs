@@ -1,6 +1,7 @@
 //! Incremental 3D Delaunay triangulation, generic by a symbolic perturbation.
 
 use super::predicates::{Point, in_sphere, orient};
+use super::sites::extent;
 use crate::context::Context;
 use crate::error::{Error, ErrorKind, Result};
 
@@ -43,6 +44,8 @@ pub(super) fn tetrahedra(points: &[Point], frame: [u32; 4], order: &[u32], conte
 
 struct Delaunay<'a> {
     points: &'a [Point],
+    /// The largest coordinate; the least is 0.
+    extent: f64,
     cells: Vec<Cell>,
     /// Cells to use again.
     free: Vec<u32>,
@@ -69,7 +72,16 @@ impl<'a> Delaunay<'a> {
             neighbours.swap((i + 1) % 4, (i + 2) % 4);
             cells.push(Cell { vertices, neighbours, seen: 0 });
         }
-        Self { points, cells, free: Vec::new(), last: 0, round: 0, cavity: Vec::new(), rim: Vec::new() }
+        Self {
+            points,
+            extent: extent(points),
+            cells,
+            free: Vec::new(),
+            last: 0,
+            round: 0,
+            cavity: Vec::new(),
+            rim: Vec::new(),
+        }
     }
 
     fn insert(&mut self, p: u32) -> Result<()> {
@@ -91,7 +103,7 @@ impl<'a> Delaunay<'a> {
     /// On which side of the facet opposite vertex `i` the point lies: +1 on the cell's own.
     fn side(&self, mut vertices: [u32; 4], i: usize, p: u32) -> i32 {
         vertices[i] = p;
-        orient(self.positions(vertices))
+        orient(self.positions(vertices), self.extent)
     }
 
     /// A cell in conflict with `p`, found by walking towards it. In a Delaunay triangulation such a walk
@@ -122,7 +134,7 @@ impl<'a> Delaunay<'a> {
                 side => side > 0,
             };
         }
-        match in_sphere(self.positions(cell.vertices), self.points[p as usize]) {
+        match in_sphere(self.positions(cell.vertices), self.points[p as usize], self.extent) {
             0 => self.conflicts_raised(cell.vertices, p),
             inside => inside > 0,
         }

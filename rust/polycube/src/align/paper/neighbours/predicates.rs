@@ -26,10 +26,13 @@ trait Number: Copy + Add<Output = Self> + Sub<Output = Self> + Mul<Output = Self
 impl Number for f64 {}
 impl Number for i128 {}
 
-/// The sign of the volume of `abcd`: +1, 0 where they are coplanar, or −1.
-pub(super) fn orient([a, b, c, d]: [Point; 4]) -> i32 {
+/// The sign of the volume of `abcd`: +1, 0 where they are coplanar, or −1. No two coordinates are further apart than `extent`.
+pub(super) fn orient([a, b, c, d]: [Point; 4], extent: f64) -> i32 {
     let rows = [a, b, c].map(|q| minus(q, d));
     let det = det3(rows);
+    if extent <= EXACT_ORIENT {
+        return sign(det);
+    }
     let size = largest(&rows);
     if size <= EXACT_ORIENT || det.abs() > ERROR_ORIENT * size * size * size {
         return sign(det);
@@ -37,12 +40,16 @@ pub(super) fn orient([a, b, c, d]: [Point; 4]) -> i32 {
     det3(rows.map(|row| row.map(whole))).signum() as i32
 }
 
-/// Where `e` lies for the positively oriented `abcd`: +1 inside the circumsphere, 0 on it, −1 outside.
-pub(super) fn in_sphere(cell: [Point; 4], e: Point) -> i32 {
+/// Where `e` lies for the positively oriented `abcd`: +1 inside the circumsphere, 0 on it, −1 outside. No two coordinates
+/// are further apart than `extent`.
+pub(super) fn in_sphere(cell: [Point; 4], e: Point, extent: f64) -> i32 {
     let rows = cell.map(|q| minus(q, e));
     let m = minors(&rows);
     let [a, b, c, d] = std::array::from_fn(|i| m[i] * dot(rows[i]));
     let det = (b + a) + (d + c);
+    if extent <= EXACT_SPHERE {
+        return sign(det);
+    }
     let size = largest(&rows);
     if size <= EXACT_SPHERE || det.abs() > ERROR_SPHERE * (size * size) * (size * size) * size {
         return sign(det);
@@ -147,8 +154,9 @@ mod tests {
 
     fn assert_signs(p: [Point; 5]) {
         let [a, b, c, d, e] = p;
-        assert_eq!(orient([a, b, c, d]), expected(&p[..4], false));
-        assert_eq!(in_sphere([a, b, c, d], e), expected(&p, true));
+        let extent = p.iter().flatten().fold(0.0_f64, |m, &x| m.max(x));
+        assert_eq!(orient([a, b, c, d], extent), expected(&p[..4], false));
+        assert_eq!(in_sphere([a, b, c, d], e, extent), expected(&p, true));
     }
 
     fn points(limit: i64) -> impl Strategy<Value = [Point; 5]> {

@@ -86,7 +86,8 @@ fn gcd(a: i64, b: i64) -> i64 {
     if b == 0 { a } else { gcd(b, a % b) }
 }
 
-fn extent(points: &[Point]) -> f64 {
+/// The largest coordinate, at least 1.
+pub(super) fn extent(points: &[Point]) -> f64 {
     points.iter().flatten().fold(1.0, |m: f64, &x| m.max(x))
 }
 
@@ -109,7 +110,7 @@ fn frame(points: &mut Vec<Point>) -> [u32; 4] {
         }
     }
     let mut frame = [chosen[0], chosen[1], chosen[2], chosen[3]];
-    if orient(frame.map(|i| points[i as usize])) < 0 {
+    if orient(frame.map(|i| points[i as usize]), extent(points)) < 0 {
         frame.swap(0, 1);
     }
     frame
@@ -131,7 +132,7 @@ fn independent(corners: &[Point], p: Point) -> bool {
             // The products need up to 64 bits, the coordinates are whole.
             (ux as i128) * (vy as i128) != (uy as i128) * (vx as i128)
         }),
-        [a, b, c] => orient([a, b, c, p]) != 0,
+        [a, b, c] => orient([a, b, c, p], f64::INFINITY) != 0,
         _ => false,
     }
 }
