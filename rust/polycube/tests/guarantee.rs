@@ -57,6 +57,12 @@ fn random_polycubes_stay_valid_and_get_no_more_blocks() {
     assert!(handles > 0 && parts > 0 && better > 0);
 }
 
+/// Its symmetry makes the residual of the morph orthogonal to what the solver started with.
+#[test]
+fn a_polycube_on_which_the_solver_of_the_morph_starts_anew_stays_valid() {
+    checked(&sample(43_650, CellKind::Quads), &paper(), "seed 43650");
+}
+
 #[test]
 fn larger_polycubes_stay_valid() {
     for seed in 0..cases(25) {

@@ -16,8 +16,11 @@ const GOAL: f64 = 1e-11;
 const ENOUGH: f64 = 1e-10;
 /// Relative residual that is still returned when rounding allows no better.
 const ACCEPTABLE: f64 = 1e-6;
+/// Below this cosine between shadow and residual, rounding alone says where the next direction leads: a run ends there,
+/// and the next one casts a new shadow. Symmetric polycubes come to it.
+const ORTHOGONAL: f64 = 1e-12;
 /// Runs before giving up.
-const RUNS: usize = 8;
+const RUNS: usize = 20;
 /// Iterations in one run.
 const ITERATIONS: usize = 2000;
 
@@ -58,6 +61,8 @@ struct Run<'a, const N: usize> {
     open: [bool; N],
     residual: Vec<Values<N>>,
     shadow: Vec<Values<N>>,
+    /// Norms of the columns of the shadow.
+    cast: Values<N>,
     direction: Vec<Values<N>>,
     /// A times the preconditioned direction.
     image: Vec<Values<N>>,
@@ -78,6 +83,7 @@ impl<'a, const N: usize> Run<'a, N> {
             size,
             open: std::array::from_fn(|k| found[k] > GOAL * size[k]),
             shadow: residual.clone(),
+            cast: found,
             direction: residual.clone(),
             rho: dots(&residual, &residual),
             residual,
@@ -126,7 +132,7 @@ impl<'a, const N: usize> Run<'a, N> {
         self.rho = rho;
         let found = norms(&self.residual);
         for k in 0..N {
-            let moving = back[k] != 0.0 && along[k] != 0.0;
+            let moving = along[k] != 0.0 && self.rho[k].abs() > ORTHOGONAL * self.cast[k] * found[k];
             self.open[k] &= moving && found[k] > GOAL * self.size[k];
         }
     }
