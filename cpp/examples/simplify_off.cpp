@@ -1,7 +1,7 @@
 // A console host: reads a shape and its polycube with OpenMesh, simplifies with a progress line, stops on Ctrl-C, and
-// writes the quadrilateral and the hexahedral mesh.
+// writes the quadrilateral and the hexahedral mesh, of about HEXES hexahedra.
 //
-//     simplify_off SHAPE.off POLYCUBE.off FOLDER
+//     simplify_off SHAPE.off POLYCUBE.off FOLDER [HEXES]
 #include <OpenMesh/Core/IO/MeshIO.hh>
 #include <csignal>
 #include <cstdio>
@@ -44,12 +44,13 @@ void write(const polycube::Remeshed& result, const std::string& folder) {
     if (result.hexes) polycube::write_mesh(folder + "/hexes.vtu", result.hexes->mesh, result.hexes->fields());
 }
 
-int run(const char* shape_file, const char* polycube_file, const std::string& folder) {
+int run(const char* shape_file, const char* polycube_file, const std::string& folder,
+        const polycube::RemeshOptions& options) {
     const polycube::Mesh shape = read(shape_file), polycube = read(polycube_file);
     const polycube::Context context(show);
     running = &context;
     std::signal(SIGINT, stop);
-    const polycube::Remeshed result = polycube::remesh({polycube, shape}, {}, context);
+    const polycube::Remeshed result = polycube::remesh({polycube, shape}, options, context);
     write(result, folder);
     const polycube::Report& report = result.simplified.report();
     std::cerr << '\r';
@@ -62,12 +63,14 @@ int run(const char* shape_file, const char* polycube_file, const std::string& fo
 }  // namespace
 
 int main(int argc, char** argv) {
-    if (argc != 4) {
-        std::cerr << "usage: simplify_off SHAPE.off POLYCUBE.off FOLDER\n";
+    if (argc != 4 && argc != 5) {
+        std::cerr << "usage: simplify_off SHAPE.off POLYCUBE.off FOLDER [HEXES]\n";
         return 2;
     }
+    polycube::RemeshOptions options;
+    if (argc == 5) options.size = {polycube::Size::Kind::hexes, std::atof(argv[4])};
     try {
-        return run(argv[1], argv[2], argv[3]);
+        return run(argv[1], argv[2], argv[3], options);
     } catch (const polycube::Error& error) {
         std::cerr << '\r' << polycube::name_of(error.kind()) << ": " << error.what() << '\n';
         return error.kind() == polycube::ErrorKind::cancelled ? 130 : 1;

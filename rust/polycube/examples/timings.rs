@@ -2,7 +2,8 @@
 //!
 //! ```text
 //! cargo run --release --example timings -- models FILE…        structure, alignment, counts of each polycube
-//! cargo run --release --example timings -- growth CORNERS…     the same for generated polycubes
+//! cargo run --release --example timings -- corners COUNT…      the same for generated polycubes, with peak memory
+//! cargo run --release --example timings -- tetrahedra COUNT…   simplifying generated polycubes, with peak memory
 //! cargo run --release --example timings -- neighbours COUNT…   neighbouring corners, on degenerate point sets, too
 //! cargo run --release --example timings -- morph FILE          a morph of the mesh, with peak memory
 //! cargo run --release --example timings -- copy FILE FOLDER    reading and writing
@@ -13,12 +14,13 @@
 
 use polycube::align::neighbours::neighbours;
 use polycube::align::{Options, Strategy, align};
-use polycube::generate::{SplitMix64, random_with_corners};
+use polycube::generate::{Example, SplitMix64, random_with_corners};
 use polycube::layout::count;
 use polycube::map::morph;
 use polycube::mesh::{CellKind, Mesh, read, write};
+use polycube::simplify::simplify;
 use polycube::structure::{Arrangement, Polycube, Tolerance};
-use polycube::{Context, Error, ErrorKind, Result};
+use polycube::{Context, Error, ErrorKind, Input, Result};
 use serde_json::{Value, json};
 use std::hint::black_box;
 use std::path::Path;
@@ -83,10 +85,22 @@ fn model(file: &str) -> Result<Value> {
     Ok(line)
 }
 
-fn growth(corners: &str) -> Result<Value> {
-    let wish = number(corners)?;
-    let voxels = random_with_corners(1, wish)?;
-    stages(&voxels.mesh(CellKind::Quads, 1e9)?)
+fn corners(count: &str) -> Result<Value> {
+    let voxels = random_with_corners(1, number(count)?)?;
+    let mut line = stages(&voxels.mesh(CellKind::Quads, 1e9)?)?;
+    line["peak_mb"] = json!(memory());
+    Ok(line)
+}
+
+fn tetrahedra(count: &str) -> Result<Value> {
+    let voxels = Example::CubeSpikes.voxels(1)?;
+    // There are five in every cell.
+    let step = (5.0 * voxels.volume() / number(count)? as f64).cbrt();
+    let mesh = voxels.mesh(CellKind::Tetrahedra, step)?;
+    let input = Input { polycube: &mesh, shape: None, labels: None };
+    let options = polycube::Options { strategy: Strategy::Paper, ..Default::default() };
+    let (_, time) = best(|| simplify(&input, &options, &Context::default()))?;
+    Ok(json!({ "tetrahedra": mesh.cells.len(), "simplify": time, "peak_mb": memory() }))
 }
 
 /// Corners of a polycube, the same with a large step, random points, and all points of a grid.
@@ -148,7 +162,8 @@ fn main() -> Result<()> {
     let (mode, rest) = arguments.split_first().map_or(("", &[][..]), |(m, r)| (m.as_str(), r));
     let measure: fn(&str) -> Result<Value> = match (mode, rest) {
         ("models", _) => model,
-        ("growth", _) => growth,
+        ("corners", _) => corners,
+        ("tetrahedra", _) => tetrahedra,
         ("neighbours", _) => crowd,
         ("morph", _) => morphed,
         ("copy", [file, folder]) => {

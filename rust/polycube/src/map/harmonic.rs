@@ -38,22 +38,43 @@ fn extend<const N: usize>(
     field: &mut [Values<3>],
     context: &Context,
 ) -> Result<()> {
-    let unknown = |v: usize| !known[v][axes[0]] && !weights.range(v).is_empty();
-    let unknowns: Vec<u32> = (0..weights.len()).filter(|&v| unknown(v)).map(|v| v as u32).collect();
-    let mut index = vec![KNOWN; weights.len()];
-    for (i, &v) in unknowns.iter().enumerate() {
-        index[v as usize] = i as u32;
-    }
-    anchored(weights, &unknowns, &index, axes[0])?;
-    let matrix = reduced(weights, &unknowns, &index);
-    let sides = right_hand_sides(weights, &unknowns, &index, axes, field);
-    let solution = krylov::solve(&matrix, &sides, context)?;
-    for (&v, values) in unknowns.iter().zip(solution) {
+    let system = System::new(weights, known, axes, field)?;
+    let solution = krylov::solve(&system.matrix, &system.sides, context)?;
+    for (&v, values) in system.unknowns.iter().zip(solution) {
         for (axis, value) in axes.into_iter().zip(values) {
             field[v as usize][axis] = value;
         }
     }
     Ok(())
+}
+
+/// The linear system of the vertices where a field is not known.
+pub(super) struct System<const N: usize> {
+    /// The vertex of each row.
+    unknowns: Vec<u32>,
+    /// The Laplacian between the unknowns.
+    pub(super) matrix: Rows,
+    /// What the known neighbours pull each unknown by.
+    pub(super) sides: Vec<Values<N>>,
+}
+
+impl<const N: usize> System<N> {
+    /// For the axes listed, all with the same unknowns.
+    ///
+    /// # Errors
+    /// [`ErrorKind::Polycube`] naming a vertex no chain of unknowns joins to a known one.
+    pub(super) fn new(weights: &Rows, known: &[[bool; 3]], axes: [usize; N], field: &[Values<3>]) -> Result<Self> {
+        let unknown = |v: usize| !known[v][axes[0]] && !weights.range(v).is_empty();
+        let unknowns: Vec<u32> = (0..weights.len()).filter(|&v| unknown(v)).map(|v| v as u32).collect();
+        let mut index = vec![KNOWN; weights.len()];
+        for (i, &v) in unknowns.iter().enumerate() {
+            index[v as usize] = i as u32;
+        }
+        anchored(weights, &unknowns, &index, axes[0])?;
+        let matrix = reduced(weights, &unknowns, &index);
+        let sides = right_hand_sides(weights, &unknowns, &index, axes, field);
+        Ok(Self { unknowns, matrix, sides })
+    }
 }
 
 /// The Laplacian between the unknowns.

@@ -7,6 +7,8 @@ mod check;
 mod cotangent;
 mod distortion;
 mod flipped;
+#[cfg(test)]
+mod for_bench;
 mod harmonic;
 mod ilu;
 mod krylov;

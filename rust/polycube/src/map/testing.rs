@@ -109,6 +109,23 @@ pub(crate) fn labels(mesh: &Mesh) -> Vec<i8> {
     mesh.cells.boundary().unwrap().iter().map(label).collect()
 }
 
+/// Every boundary vertex on the level of each of its facets, moved by `level(axis, coordinate)`.
+pub(crate) fn on_levels(mesh: &Mesh, level: impl Fn(usize, f64) -> f64) -> Vec<[Option<f64>; 3]> {
+    let mut fixed = vec![[None; 3]; mesh.points.len()];
+    for (face, label) in mesh.cells.boundary().unwrap().iter().zip(labels(mesh)) {
+        for &v in face.vertices().iter().filter(|_| label >= 0) {
+            let axis = label as usize / 2;
+            fixed[v as usize][axis] = Some(level(axis, mesh.points[v as usize][axis]));
+        }
+    }
+    fixed
+}
+
+/// Levels drawn apart unevenly, so that their order stays.
+pub(crate) fn uneven(axis: usize, x: f64) -> f64 {
+    x + 0.4 * (x * 1.7 + axis as f64).sin()
+}
+
 /// Every tetrahedral polycube of the test data with its name; none where there is no data, unless
 /// `POLYCUBE_REQUIRE_DATA=1`.
 pub(crate) fn real_polycubes() -> Vec<(String, Mesh)> {

@@ -1,6 +1,8 @@
 //! Algorithm 1 of the paper: pair corners, align them, halve λ, until nothing more can be aligned.
 
 mod constraints;
+#[cfg(test)]
+mod for_bench;
 pub mod neighbours;
 mod pairs;
 mod restart;
