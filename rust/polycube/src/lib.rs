@@ -1,7 +1,25 @@
 //! Turn a polycube into the coarsest good block structure there is.
 //!
-//! [`simplify`](simplify::simplify) is the way in. Data flows one way:
-//! [`mesh`] → [`structure`] → [`align`] → [`layout`] → [`map`] → [`remesh`].
+//! [`simplify`](simplify::simplify) is the way in, [`remesh`](remesh::remesh) goes on to quadrilaterals and hexahedra.
+//! Data flows one way: [`mesh`] → [`structure`] → [`align`] → [`layout`] → [`map`] → [`remesh`].
+//!
+//! ```
+//! use polycube::generate::{Example, example};
+//! use polycube::mesh::{CellKind, Format, write_bytes};
+//! use polycube::simplify::simplify;
+//! use polycube::{Context, Input, Options};
+//!
+//! // `polycube::mesh::read` reads your own.
+//! let (cube, shape) = example(Example::Ring, 1, CellKind::Quads)?;
+//! let input = Input { polycube: &cube, shape: Some(&shape), labels: None };
+//! let simple = simplify(&input, &Options::default(), &Context::default())?;
+//!
+//! let (before, after) = (simple.report.before, simple.report.after.expect("only `naive` gives results without counts"));
+//! assert!(after.blocks_padded < before.blocks_padded);
+//! let file = write_bytes(Format::Obj, simple.polycube.as_ref().expect("so there is a mesh"), &[])?;
+//! # assert!(!file.is_empty());
+//! # Ok::<(), polycube::Error>(())
+//! ```
 
 pub mod align;
 pub mod compare;

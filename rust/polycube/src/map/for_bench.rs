@@ -53,13 +53,12 @@ fn inside(folder: &Path, name: &str, mesh: &Mesh) {
 }
 
 fn record<const N: usize>(folder: &Path, name: &str, system: &System<N>) {
-    let mut seconds = f64::INFINITY;
-    let mut solution = Vec::new();
-    for _ in 0..3 {
-        let start = processor_seconds();
+    let (start, mut runs, mut solution) = (processor_seconds(), 0, Vec::new());
+    while processor_seconds() < start + 0.5 {
         solution = krylov::solve(&system.matrix, &system.sides, &Context::default()).unwrap();
-        seconds = seconds.min(processor_seconds() - start);
+        runs += 1;
     }
+    let seconds = (processor_seconds() - start) / f64::from(runs);
     let save = |what: &str, text: String| std::fs::write(folder.join(format!("{name}.{what}.mtx")), text).unwrap();
     save("matrix", coordinates(&system.matrix));
     save("sides", array(&system.sides));
@@ -87,7 +86,7 @@ fn array<const N: usize>(rows: &[Values<N>]) -> String {
     text
 }
 
-/// How long this thread has run, on a machine that may be busy with other work.
+/// How long this thread has run, on a machine that may be busy with other work, to some milliseconds.
 fn processor_seconds() -> f64 {
     let text = std::fs::read_to_string("/proc/thread-self/schedstat").expect("Linux");
     1e-9 * text.split_whitespace().next().unwrap().parse::<f64>().unwrap()
