@@ -4,8 +4,9 @@ mod common;
 
 use common::{bits, cases, coarse, dense, labels, paper, read, simplify};
 use nalgebra::Vector3;
-use polycube::align::Strategy;
+use polycube::align::{Effort, Strategy};
 use polycube::generate::{perturb, random_polycube, random_with_corners, scale, symmetries, transform, translate};
+use polycube::layout::Objective;
 use polycube::mesh::{CellKind, Format, Mesh, write_bytes};
 use polycube::structure::Structure;
 use polycube::{Context, Input, Options, Simplified};
@@ -55,6 +56,17 @@ fn random_polycubes_stay_valid_and_get_no_more_blocks() {
     }
     println!("{handles} with handles, {parts} in parts, {better} with fewer blocks");
     assert!(handles > 0 && parts > 0 && better > 0);
+}
+
+#[test]
+fn searched_polycubes_stay_valid_and_get_no_more_blocks() {
+    let effort = Effort { steps_per_level: 50, ..Effort::default() };
+    for objective in [Objective::BlocksPadded, Objective::SurfacePatches] {
+        let options = Options { effort, objective: Some(objective), ..Options::default() };
+        for seed in 0..cases(10) {
+            checked(&sample(seed, CellKind::Quads), &options, &format!("seed {seed}, {objective:?}"));
+        }
+    }
 }
 
 /// Its symmetry makes the residual of the morph orthogonal to what the solver started with.
