@@ -10,19 +10,19 @@ use crate::error::Result;
 use crate::generate::{Example, random_with_corners};
 use crate::mesh::CellKind;
 use crate::structure::{Polycube, Tolerance};
-use std::cell::Cell;
 use std::path::PathBuf;
+use std::sync::atomic::{AtomicUsize, Ordering};
 
 /// Writes every problem that it solves.
 struct Recorder {
     stem: PathBuf,
-    count: Cell<usize>,
+    count: AtomicUsize,
 }
 
 impl Solver for Recorder {
     fn solve(&self, problem: &Problem, start: Option<&[i64]>, context: &Context) -> Result<Solution> {
-        let file = self.stem.with_extension(format!("{:03}.json", self.count.get()));
-        self.count.set(self.count.get() + 1);
+        let number = self.count.fetch_add(1, Ordering::Relaxed);
+        let file = self.stem.with_extension(format!("{number:03}.json"));
         std::fs::write(file, serde_json::to_string(problem).unwrap()).unwrap();
         ExactSolver.solve(problem, start, context)
     }
@@ -38,7 +38,7 @@ fn for_bench() {
     for (name, voxels) in named.into_iter().chain(sized) {
         let polycube = Polycube::new(&voxels.mesh(CellKind::Quads, 1e9).unwrap(), None, &Tolerance::default()).unwrap();
         let (structure, placement) = (&polycube.structure, &polycube.placement);
-        let solver = Recorder { stem: folder.join(name), count: Cell::new(0) };
+        let solver = Recorder { stem: folder.join(name), count: AtomicUsize::new(0) };
         let guided = Guided::free(structure);
         let settings = Settings { lambda_min: 0.0, solver: &solver, guided: &guided, oblique_planes: false };
         let input = Unit::of(structure, placement).apply(structure, placement);
