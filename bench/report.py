@@ -37,15 +37,8 @@ class Report:
 
 
 def number(value):
-    """Three digits, without an exponent."""
-    if value != value or value == 0:
-        return str(value)
-    digits = 2
-    while abs(value) >= 10 and digits > 0:
-        value, digits = value / 10, digits - 1
-    shift = 2 - digits
-    value *= 10**shift
-    return f"{value:,.{digits}f}" if abs(value) >= 0.095 else f"{value:.3g}"
+    """Three digits."""
+    return f"{value:,.0f}" if abs(value) >= 100 else f"{value:.3g}"
 
 
 def machine():
