@@ -1,6 +1,5 @@
 //! From coarse lattices to fine ones: what a coarse mesh costs little to find is where a fine one starts.
 
-use super::choose::is_flexible;
 use super::grid::Grid;
 use super::improve::improve;
 use super::interior::interpolate;
@@ -9,6 +8,7 @@ use super::padding::Padding;
 use super::pipeline::RemeshOptions;
 use super::report::cells_of;
 use super::spacing::{spaced, tamed};
+use super::start::is_flexible;
 use super::warp::{Warp, on_levels};
 use super::{Hexes, Remesher, count_hexes};
 use crate::align::{self, Options, Strategy};
@@ -62,6 +62,8 @@ pub(super) struct Rung {
     layers: Vec<Vec<Point>>,
     /// Its worst scaled Jacobian.
     pub(super) worst: f64,
+    /// Its mean scaled Jacobian.
+    pub(super) average: f64,
 }
 
 impl Rung {
@@ -78,7 +80,7 @@ impl Rung {
             }
             all.push(lattice.clone());
         }
-        Self { grid, levels, layers: all, worst: worst(hexes) }
+        Self { grid, levels, layers: all, worst: worst(hexes), average: average(hexes) }
     }
 
     /// How long the lattice edges along each axis are in each layer of cells, from the lowest: root mean squares.
@@ -129,6 +131,12 @@ impl Rung {
 /// The worst scaled Jacobian of a mesh.
 fn worst(hexes: &Hexes) -> f64 {
     cells_of(hexes).iter().map(|c| scaled_jacobian(&hexes.mesh.points, c)).fold(1.0, f64::min)
+}
+
+/// The mean scaled Jacobian of a mesh.
+fn average(hexes: &Hexes) -> f64 {
+    let cells = cells_of(hexes);
+    cells.iter().map(|c| scaled_jacobian(&hexes.mesh.points, c)).sum::<f64>() / cells.len().max(1) as f64
 }
 
 /// The finished mesh of a lattice about half as fine, which started from one half as fine again, and so on; nothing if there

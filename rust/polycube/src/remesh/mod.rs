@@ -27,6 +27,7 @@ mod site;
 mod size;
 mod slide;
 mod spacing;
+mod start;
 mod surface_map;
 mod untangle;
 mod volume_map;
