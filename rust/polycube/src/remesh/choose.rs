@@ -14,6 +14,8 @@ const WORTH: f64 = 0.05;
 const CLOSER: f64 = 0.71;
 /// A fine mesh whose worst scaled Jacobian is less than this part of what its coarse one promised went wrong.
 const KEPT: f64 = 0.8;
+/// So many tries in a row that are no better end the trying.
+const MISSES: usize = 2;
 /// Points of the front of which coarse meshes are made.
 const TRIES: usize = 6;
 /// Points of the front that are meshed finely as long as none is inverted.
@@ -58,14 +60,12 @@ impl<'a> Choice<'a> {
         Ok(choice)
     }
 
-    /// Whether there is a coarse mesh and it is poor, and the last one was better than those before.
+    /// Whether there is a coarse mesh and it is poor, and it or one shortly before was better than all others.
     fn is_worth_trying(&self) -> bool {
-        let Some((last, before)) = self.tried.split_last().filter(|(last, _)| last.rung.is_some()) else {
-            return false;
-        };
-        let best = before.iter().map(value).fold(f64::NEG_INFINITY, f64::max);
-        let worst = last.worst().unwrap_or(1.0);
-        !self.left.is_empty() && worst < GOOD && (worst <= 0.0 || value(last) > best + WORTH)
+        let Some(worst) = self.tried.last().and_then(Start::worst) else { return false };
+        let (before, lately) = self.tried.split_at(self.tried.len().saturating_sub(MISSES));
+        let best = |starts: &[Start]| starts.iter().map(value).fold(f64::NEG_INFINITY, f64::max);
+        !self.left.is_empty() && worst < GOOD && (worst <= 0.0 || best(lately) > best(before) + WORTH)
     }
 
     /// The next point of the front that was not tried.

@@ -161,13 +161,14 @@ pub(super) fn climb(
         };
         let remesher = Remesher::new(&map, shape, &context)?;
         let mut hexes = remesher.hexes(options.padding, &context)?;
-        finish(rung, &remesher, &mut hexes, options, &context)?;
+        finish(rung, &remesher, &mut hexes, options, f64::INFINITY, &context)?;
         rung = Some(Rung::new(remesher, &hexes, options.padding));
     }
     Ok(rung)
 }
 
-/// Improves `hexes`, starting from the mesh of a coarser lattice if that leads to no inverted hexahedron, else as they are.
+/// Improves `hexes`, starting from the mesh of a coarser lattice if that leads to no inverted hexahedron, else as they are; the shape shall
+/// be no farther from them than `bound`.
 /// Returns how many vertices were released.
 ///
 /// # Errors
@@ -177,9 +178,11 @@ pub(super) fn finish(
     remesher: &Remesher,
     hexes: &mut Hexes,
     options: &RemeshOptions,
+    bound: f64,
     context: &Context,
 ) -> Result<usize> {
-    let improve = |hexes: &mut Hexes| improve(remesher.simplified, hexes, remesher.shape, &options.optimise, context);
+    let improve =
+        |hexes: &mut Hexes| improve(remesher.simplified, hexes, remesher.shape, &options.optimise, bound, context);
     if let Some(rung) = rung.filter(|r| r.worst > 0.0) {
         let mut started = hexes.clone();
         rung.start(remesher, &mut started)?;

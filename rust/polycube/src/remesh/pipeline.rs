@@ -2,7 +2,7 @@
 
 use super::choose::{Choice, keeps_promise};
 use super::climb::{Rung, finish};
-use super::report::{RemeshReport, Stages, cells_of, measure};
+use super::report::{RemeshReport, Stages, cells_of, diagonal, measure};
 use super::start::Start;
 
 use super::{Hexes, Layout, Quads, Remesher, Size, untangle};
@@ -68,7 +68,7 @@ pub struct Remeshed {
 ///
 /// The map from shape to polycube is made one to one on every facet; the lattice of the wanted size is mapped back
 /// through it, padded, and optimised with the surface sliding on the shape until no hexahedron is inverted and the worst is
-/// as good as can be had. Surface vertices leave the shape, by less than the bound, where quadrilaterals would cut off more.
+/// as good as can be had; where the mesh cuts off more of the shape than the bound, surface vertices are put there.
 /// Levels are spaced by the shape, unless the scale is given. Where inverted hexahedra remain or the surface is farther from the shape than asked for, the result
 /// is given all the same and the report says so. Without a shape the polycube itself is meshed.
 ///
@@ -121,10 +121,11 @@ fn best(
     loop {
         let inverted = best.as_ref().is_none_or(|b| b.1.inverted > 0);
         let next = choice.next(inverted, &context.stage("map", done, done))?;
-        let Some(Start { simplified, map, shape, rung }) = next else { break };
+        let Some(Start { simplified, map, shape, rung, spaced }) = next else { break };
         let promise = rung.as_ref().map(|r| r.worst);
         let share = (1.0 - done) / 2.0;
-        let meshed = mesh(&map, &shape, rung, options, stages, &context.stage("mesh", done, done + share))?;
+        let mut meshed = mesh(&map, &shape, rung, options, stages, &context.stage("mesh", done, done + share))?;
+        meshed.spaced = spaced;
         done += share;
         let enough = keeps_promise(meshed.worst, promise);
         if best.as_ref().is_none_or(|b| (b.1.inverted, -b.1.worst) > (meshed.inverted, -meshed.worst)) {
@@ -159,6 +160,8 @@ pub(super) struct Meshed {
     worst: f64,
     /// Vertices that had to leave their corners and edges.
     pub(super) released: usize,
+    /// Whether the levels were spaced by the shape.
+    pub(super) spaced: bool,
 }
 
 fn mesh(
@@ -177,12 +180,22 @@ fn mesh(
         let layout = remesher.layout(&points, 0)?;
         stages.mesh += start.elapsed().as_secs_f64();
         let scaled_jacobian = Vec::new();
-        return Ok(Meshed { layout, quads, hexes: None, scaled_jacobian, inverted: 0, worst: 1.0, released: 0 });
+        return Ok(Meshed {
+            layout,
+            quads,
+            hexes: None,
+            scaled_jacobian,
+            inverted: 0,
+            worst: 1.0,
+            released: 0,
+            spaced: false,
+        });
     }
     let mut hexes = remesher.hexes(options.padding, &context.stage("mesh", 0.1, 0.2))?;
     let optimising = Instant::now();
     stages.mesh += (optimising - start).as_secs_f64();
-    let released = finish(rung, &remesher, &mut hexes, options, &context.stage("optimise", 0.2, 1.0))?;
+    let bound = options.max_hausdorff * diagonal(shape);
+    let released = finish(rung, &remesher, &mut hexes, options, bound, &context.stage("optimise", 0.2, 1.0))?;
     stages.optimise += optimising.elapsed().as_secs_f64();
     quads.mesh.points = remesher.surface_of(&hexes.mesh.points, options.padding);
     let layout = remesher.layout(&hexes.mesh.points, options.padding)?;
@@ -191,5 +204,5 @@ fn mesh(
         cells.iter().map(|c| crate::optimise::scaled_jacobian(&hexes.mesh.points, c)).collect();
     let inverted = scaled_jacobian.iter().filter(|q| q.is_nan() || **q <= 0.0).count();
     let worst = scaled_jacobian.iter().copied().fold(1.0, f64::min);
-    Ok(Meshed { layout, quads, hexes: Some(hexes), scaled_jacobian, inverted, worst, released })
+    Ok(Meshed { layout, quads, hexes: Some(hexes), scaled_jacobian, inverted, worst, released, spaced: false })
 }

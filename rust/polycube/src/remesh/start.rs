@@ -22,6 +22,8 @@ pub(super) struct Start {
     pub(super) shape: Mesh,
     /// A coarser mesh to start from.
     pub(super) rung: Option<Rung>,
+    /// Whether the levels were spaced by the shape.
+    pub(super) spaced: bool,
 }
 
 impl Start {
@@ -37,12 +39,14 @@ impl Start {
         if !options.surface_only {
             rung = climb(&map, &shape, options, &context.stage("map", 0.4, 1.0))?;
         }
-        if let Some(rung) = rung.as_ref().filter(|_| is_flexible(options)) {
+        let flexible = rung.as_ref().filter(|_| is_flexible(options));
+        let is_spaced = flexible.is_some();
+        if let Some(rung) = flexible {
             let levels = spaced(&map, rung, options.padding, context)?;
             simplified = on_levels(&simplified, levels.clone());
             map = on_levels(&map, levels);
         }
-        Ok(Self { simplified, map, shape, rung })
+        Ok(Self { simplified, map, shape, rung, spaced: is_spaced })
     }
 
     /// The worst scaled Jacobian of the coarse mesh, if there is one.
