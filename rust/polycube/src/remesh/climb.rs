@@ -1,7 +1,7 @@
 //! From coarse lattices to fine ones: what a coarse mesh costs little to find is where a fine one starts.
 
 use super::grid::Grid;
-use super::improve::improve;
+use super::improve::{Improved, improve};
 use super::interior::interpolate;
 use super::keys::{Keys, rank};
 use super::padding::Padding;
@@ -169,7 +169,6 @@ pub(super) fn climb(
 
 /// Improves `hexes`, starting from the mesh of a coarser lattice if that leads to no inverted hexahedron, else as they are; the shape shall
 /// be no farther from them than `bound`.
-/// Returns how many vertices were released.
 ///
 /// # Errors
 /// Those of [`optimise`](crate::optimise::optimise()).
@@ -180,16 +179,16 @@ pub(super) fn finish(
     options: &RemeshOptions,
     bound: f64,
     context: &Context,
-) -> Result<usize> {
+) -> Result<Improved> {
     let improve =
         |hexes: &mut Hexes| improve(remesher.simplified, hexes, remesher.shape, &options.optimise, bound, context);
     if let Some(rung) = rung.filter(|r| r.worst > 0.0) {
         let mut started = hexes.clone();
         rung.start(remesher, &mut started)?;
-        let released = improve(&mut started)?;
+        let improved = improve(&mut started)?;
         if worst(&started) > 0.0 {
             *hexes = started;
-            return Ok(released);
+            return Ok(improved);
         }
     }
     improve(hexes)

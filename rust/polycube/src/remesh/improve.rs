@@ -24,11 +24,20 @@ const RELEASES: usize = 4;
 /// Hexahedra of a lower scaled Jacobian may have vertices released where the shape is smooth.
 pub(super) const POOR: f64 = 0.6;
 
+/// What became of a mesh.
+#[derive(Clone, Copy)]
+pub(super) struct Improved {
+    /// Vertices that left corners and edges.
+    pub(super) released: usize,
+    /// Whether the shape is as near as it shall be.
+    pub(super) near: bool,
+}
+
 /// Moves the vertices of a mesh until no hexahedron is inverted and the worst is as good as can be had.
 ///
 /// Inverted ones are first untangled with the surface held, then with the edges held, so that surface vertices do not
 /// slide past each other, from where there is no way back. Vertices of inverted hexahedra may leave corners and edges for
-/// the surface around, and so may those of poor ones where the shape has no crease; returns how many did. Where the shape is farther
+/// the surface around, and so may those of poor ones where the shape has no crease. Where the shape is farther
 /// than `bound` from the mesh, vertices are put on what is cut off, as far as the hexahedra stay good.
 pub(super) fn improve(
     map: &Simplified,
@@ -37,18 +46,20 @@ pub(super) fn improve(
     settings: &Settings,
     bound: f64,
     context: &Context,
-) -> Result<usize> {
+) -> Result<Improved> {
     let slides = Slides::new(&map.input, shape)?;
     let elements = Elements::boxes_like(cells_of(hexes), &hexes.mesh.points, SMOOTHING)?;
     let freedom = slides.freedoms(&hexes.sites, Hold::Corners);
     let mut job = Job { elements, guides: slides.guides(), slides: &slides, hexes, freedom, released: 0 };
     job.untangle(settings, &context.stage("untangle", 0.0, 0.4))?;
     job.passes(settings, &context.stage("optimise", 0.4, 0.8))?;
+    let mut near = true;
     if bound.is_finite() {
         let settings = Settings { untangle_rounds: settings.untangle_rounds.min(LATE_ROUNDS), ..settings.clone() };
-        job.reach(&samples(&map.input.surface, shape), bound, &settings, &context.stage("optimise", 0.8, 1.0))?;
+        near =
+            job.reach(&samples(&map.input.surface, shape), bound, &settings, &context.stage("optimise", 0.8, 1.0))?;
     }
-    Ok(job.released)
+    Ok(Improved { released: job.released, near })
 }
 
 /// A mesh on the way to be improved.

@@ -2,6 +2,7 @@
 
 use super::choose::{Choice, keeps_promise};
 use super::climb::{Rung, finish};
+use super::improve::Improved;
 use super::report::{RemeshReport, Stages, cells_of, diagonal, measure};
 use super::start::Start;
 
@@ -107,19 +108,23 @@ fn simplifying(options: &RemeshOptions) -> simplify::Options {
     simplify::Options { objective: options.simplify.objective.or(blocks), ..options.simplify.clone() }
 }
 
-/// The first mesh that is as good as its coarse one promised, else the best: the one with the fewest inverted hexahedra, then that with
-/// the best worst one.
+/// Inverted hexahedra, whether the mesh is poorer than promised, whether it is farther from the shape than asked for, and how bad its
+/// worst hexahedron is: the less, the better.
+type Rank = (usize, bool, bool, f64);
+
+/// The first mesh that is as good as its coarse one promised and as near to the shape as asked for, else the best: the one with the
+/// fewest inverted hexahedra, then one as good as promised, then one that is near, then that with the best worst hexahedron.
 fn best(
     choice: &mut Choice,
     options: &RemeshOptions,
     stages: &mut Stages,
     context: &Context,
 ) -> Result<(Simplified, Meshed)> {
-    let mut best: Option<(Simplified, Meshed)> = None;
+    let mut best = None;
     // Each takes half of the progress that is left: mostly there is one.
     let mut done = 0.0;
     loop {
-        let inverted = best.as_ref().is_none_or(|b| b.1.inverted > 0);
+        let inverted = best.as_ref().is_none_or(|((inverted, ..), ..): &(Rank, _, _)| *inverted > 0);
         let next = choice.next(inverted, &context.stage("map", done, done))?;
         let Some(Start { simplified, map, shape, rung, spaced }) = next else { break };
         let promise = rung.as_ref().map(|r| r.worst);
@@ -127,15 +132,18 @@ fn best(
         let mut meshed = mesh(&map, &shape, rung, options, stages, &context.stage("mesh", done, done + share))?;
         meshed.spaced = spaced;
         done += share;
-        let enough = keeps_promise(meshed.worst, promise);
-        if best.as_ref().is_none_or(|b| (b.1.inverted, -b.1.worst) > (meshed.inverted, -meshed.worst)) {
-            best = Some((simplified, meshed));
+        let poor = !keeps_promise(meshed.worst, promise);
+        let rank = (meshed.inverted, poor, !meshed.near, -meshed.worst);
+        let enough = !poor && meshed.near;
+        if best.as_ref().is_none_or(|b| rank < b.0) {
+            best = Some((rank, simplified, meshed));
         }
         if enough {
             break;
         }
     }
-    best.ok_or_else(|| Error::new(ErrorKind::Internal, "there was nothing to mesh"))
+    let found = best.map(|(_, simplified, meshed)| (simplified, meshed));
+    found.ok_or_else(|| Error::new(ErrorKind::Internal, "there was nothing to mesh"))
 }
 
 /// Turns flipped tetrahedra of the polycube the right way round, as far as that goes.
@@ -158,6 +166,8 @@ pub(super) struct Meshed {
     inverted: usize,
     /// The worst; 1 where there are none.
     worst: f64,
+    /// Whether the shape is within the bound, as far as could be seen.
+    near: bool,
     /// Vertices that had to leave their corners and edges.
     pub(super) released: usize,
     /// Whether the levels were spaced by the shape.
@@ -187,6 +197,7 @@ fn mesh(
             scaled_jacobian,
             inverted: 0,
             worst: 1.0,
+            near: true,
             released: 0,
             spaced: false,
         });
@@ -195,7 +206,8 @@ fn mesh(
     let optimising = Instant::now();
     stages.mesh += (optimising - start).as_secs_f64();
     let bound = options.max_hausdorff * diagonal(shape);
-    let released = finish(rung, &remesher, &mut hexes, options, bound, &context.stage("optimise", 0.2, 1.0))?;
+    let Improved { released, near } =
+        finish(rung, &remesher, &mut hexes, options, bound, &context.stage("optimise", 0.2, 1.0))?;
     stages.optimise += optimising.elapsed().as_secs_f64();
     quads.mesh.points = remesher.surface_of(&hexes.mesh.points, options.padding);
     let layout = remesher.layout(&hexes.mesh.points, options.padding)?;
@@ -204,5 +216,5 @@ fn mesh(
         cells.iter().map(|c| crate::optimise::scaled_jacobian(&hexes.mesh.points, c)).collect();
     let inverted = scaled_jacobian.iter().filter(|q| q.is_nan() || **q <= 0.0).count();
     let worst = scaled_jacobian.iter().copied().fold(1.0, f64::min);
-    Ok(Meshed { layout, quads, hexes: Some(hexes), scaled_jacobian, inverted, worst, released, spaced: false })
+    Ok(Meshed { layout, quads, hexes: Some(hexes), scaled_jacobian, inverted, worst, near, released, spaced: false })
 }

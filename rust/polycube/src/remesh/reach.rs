@@ -30,17 +30,17 @@ enum Pull {
 
 impl Job<'_> {
     /// Moves vertices to where the shape is farther than `bound` from the mesh, as far as no hexahedron gets bad, and holds them there
-    /// while the others make way; and again, until the shape is near everywhere. If that cannot be had, all stay where they were.
+    /// while the others make way; and again, until the shape is near everywhere. If that cannot be had, all stay where they were. Whether the shape is near.
     pub(super) fn reach(
         &mut self,
         samples: &[Point],
         bound: f64,
         settings: &Settings,
         context: &Context,
-    ) -> Result<()> {
+    ) -> Result<bool> {
         let mut worst = self.worst();
         if worst <= 0.0 {
-            return Ok(());
+            return Ok(false);
         }
         let around = self.around();
         let start = self.hexes.mesh.points.clone();
@@ -48,7 +48,7 @@ impl Job<'_> {
         let mut pull = Pull::Bold;
         let mut found = self.gaps(samples, bound, context)?;
         for round in 0..ROUNDS {
-            let Some(farthest) = found.first().map(|g| g.distance).filter(|d| *d > bound) else { return Ok(()) };
+            let Some(farthest) = found.first().map(|g| g.distance).filter(|d| *d > bound) else { return Ok(true) };
             let [from, to] = [round, round + 1].map(|r| r as f64 / ROUNDS as f64);
             let before = (self.hexes.mesh.points.clone(), held.clone());
             self.pull_all(&found, ON * bound, pull, &around, &mut held);
@@ -66,10 +66,11 @@ impl Job<'_> {
             }
             pull = Pull::Careful;
         }
-        if found.first().is_some_and(|g| g.distance > bound) {
+        let near = found.first().is_none_or(|g| g.distance <= bound);
+        if !near {
             self.hexes.mesh.points = start;
         }
-        Ok(())
+        Ok(near)
     }
 
     fn gaps(&self, samples: &[Point], bound: f64, context: &Context) -> Result<Vec<Gap>> {
