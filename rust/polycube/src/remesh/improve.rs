@@ -29,8 +29,8 @@ pub(super) const POOR: f64 = 0.6;
 pub(super) struct Improved {
     /// Vertices that left corners and edges.
     pub(super) released: usize,
-    /// Whether the shape is as near as it shall be.
-    pub(super) near: bool,
+    /// How far the shape is from the mesh; 0 if it is as near as it shall be.
+    pub(super) far: f64,
 }
 
 /// Moves the vertices of a mesh until no hexahedron is inverted and the worst is as good as can be had.
@@ -53,13 +53,12 @@ pub(super) fn improve(
     let mut job = Job { elements, guides: slides.guides(), slides: &slides, hexes, freedom, released: 0 };
     job.untangle(settings, &context.stage("untangle", 0.0, 0.4))?;
     job.passes(settings, &context.stage("optimise", 0.4, 0.8))?;
-    let mut near = true;
+    let mut far = 0.0;
     if bound.is_finite() {
         let settings = Settings { untangle_rounds: settings.untangle_rounds.min(LATE_ROUNDS), ..settings.clone() };
-        near =
-            job.reach(&samples(&map.input.surface, shape), bound, &settings, &context.stage("optimise", 0.8, 1.0))?;
+        far = job.reach(&samples(&map.input.surface, shape), bound, &settings, &context.stage("optimise", 0.8, 1.0))?;
     }
-    Ok(Improved { released: job.released, near })
+    Ok(Improved { released: job.released, far })
 }
 
 /// A mesh on the way to be improved.

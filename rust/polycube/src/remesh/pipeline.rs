@@ -108,12 +108,12 @@ fn simplifying(options: &RemeshOptions) -> simplify::Options {
     simplify::Options { objective: options.simplify.objective.or(blocks), ..options.simplify.clone() }
 }
 
-/// Inverted hexahedra, whether the mesh is poorer than promised, whether it is farther from the shape than asked for, and how bad its
+/// Inverted hexahedra, whether the mesh is poorer than promised, how far from the shape if farther than asked for, and how bad its
 /// worst hexahedron is: the less, the better.
-type Rank = (usize, bool, bool, f64);
+type Rank = (usize, bool, f64, f64);
 
 /// The first mesh that is as good as its coarse one promised and as near to the shape as asked for, else the best: the one with the
-/// fewest inverted hexahedra, then one as good as promised, then one that is near, then that with the best worst hexahedron.
+/// fewest inverted hexahedra, then one as good as promised, then the one that is nearest, then that with the best worst hexahedron.
 fn best(
     choice: &mut Choice,
     options: &RemeshOptions,
@@ -133,8 +133,8 @@ fn best(
         meshed.spaced = spaced;
         done += share;
         let poor = !keeps_promise(meshed.worst, promise);
-        let rank = (meshed.inverted, poor, !meshed.near, -meshed.worst);
-        let enough = !poor && meshed.near;
+        let rank = (meshed.inverted, poor, meshed.far, -meshed.worst);
+        let enough = !poor && meshed.far == 0.0;
         if best.as_ref().is_none_or(|b| rank < b.0) {
             best = Some((rank, simplified, meshed));
         }
@@ -166,8 +166,8 @@ pub(super) struct Meshed {
     inverted: usize,
     /// The worst; 1 where there are none.
     worst: f64,
-    /// Whether the shape is within the bound, as far as could be seen.
-    near: bool,
+    /// How far the shape is from the surface; 0 if it is within the bound, as far as could be seen.
+    far: f64,
     /// Vertices that had to leave their corners and edges.
     pub(super) released: usize,
     /// Whether the levels were spaced by the shape.
@@ -197,7 +197,7 @@ fn mesh(
             scaled_jacobian,
             inverted: 0,
             worst: 1.0,
-            near: true,
+            far: 0.0,
             released: 0,
             spaced: false,
         });
@@ -206,7 +206,7 @@ fn mesh(
     let optimising = Instant::now();
     stages.mesh += (optimising - start).as_secs_f64();
     let bound = options.max_hausdorff * diagonal(shape);
-    let Improved { released, near } =
+    let Improved { released, far } =
         finish(rung, &remesher, &mut hexes, options, bound, &context.stage("optimise", 0.2, 1.0))?;
     stages.optimise += optimising.elapsed().as_secs_f64();
     quads.mesh.points = remesher.surface_of(&hexes.mesh.points, options.padding);
@@ -216,5 +216,5 @@ fn mesh(
         cells.iter().map(|c| crate::optimise::scaled_jacobian(&hexes.mesh.points, c)).collect();
     let inverted = scaled_jacobian.iter().filter(|q| q.is_nan() || **q <= 0.0).count();
     let worst = scaled_jacobian.iter().copied().fold(1.0, f64::min);
-    Ok(Meshed { layout, quads, hexes: Some(hexes), scaled_jacobian, inverted, worst, near, released, spaced: false })
+    Ok(Meshed { layout, quads, hexes: Some(hexes), scaled_jacobian, inverted, worst, far, released, spaced: false })
 }

@@ -30,25 +30,27 @@ enum Pull {
 
 impl Job<'_> {
     /// Moves vertices to where the shape is farther than `bound` from the mesh, as far as no hexahedron gets bad, and holds them there
-    /// while the others make way; and again, until the shape is near everywhere. If that cannot be had, all stay where they were. Whether the shape is near.
+    /// while the others make way; and again, until the shape is near everywhere. If that cannot be had, all stay where they
+    /// were. How far away the shape is then; 0 if it is near.
     pub(super) fn reach(
         &mut self,
         samples: &[Point],
         bound: f64,
         settings: &Settings,
         context: &Context,
-    ) -> Result<bool> {
+    ) -> Result<f64> {
         let mut worst = self.worst();
         if worst <= 0.0 {
-            return Ok(false);
+            return Ok(f64::INFINITY);
         }
         let around = self.around();
         let start = self.hexes.mesh.points.clone();
         let mut held = self.freedom.clone();
         let mut pull = Pull::Bold;
         let mut found = self.gaps(samples, bound, context)?;
+        let far = found.first().map_or(0.0, |g| g.distance);
         for round in 0..ROUNDS {
-            let Some(farthest) = found.first().map(|g| g.distance).filter(|d| *d > bound) else { return Ok(true) };
+            let Some(farthest) = found.first().map(|g| g.distance).filter(|d| *d > bound) else { return Ok(0.0) };
             let [from, to] = [round, round + 1].map(|r| r as f64 / ROUNDS as f64);
             let before = (self.hexes.mesh.points.clone(), held.clone());
             self.pull_all(&found, ON * bound, pull, &around, &mut held);
@@ -66,11 +68,11 @@ impl Job<'_> {
             }
             pull = Pull::Careful;
         }
-        let near = found.first().is_none_or(|g| g.distance <= bound);
-        if !near {
-            self.hexes.mesh.points = start;
+        if found.first().is_none_or(|g| g.distance <= bound) {
+            return Ok(0.0);
         }
-        Ok(near)
+        self.hexes.mesh.points = start;
+        Ok(far)
     }
 
     fn gaps(&self, samples: &[Point], bound: f64, context: &Context) -> Result<Vec<Gap>> {
