@@ -84,9 +84,7 @@ class SearchOptions(Options):
     simplicity: FloatProperty(**SIMPLICITY, options=FORGET)
     max_displacement: FloatProperty(
         name="Farthest Move",
-        description="The farthest that a corner of the polycube may move, in scene units. 0 for as far as it takes; "
-        "where the shape is meshed at once, 0 means a twelfth of the polycube's diagonal, because moves beyond that "
-        "make bad hexahedra",
+        description="The farthest that a corner of the polycube may move, in scene units. 0 for as far as it takes",
         min=0.0,
         default=0.0,
         subtype='DISTANCE',

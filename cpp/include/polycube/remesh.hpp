@@ -24,8 +24,8 @@ struct Size {
 
 /// How a shape is meshed.
 struct RemeshOptions {
-    /// How the polycube is simplified. Unless `max_displacement` is set, corners move by a twelfth of the polycube's
-    /// diagonal at most. Of `scale` only `size` is used where that is given.
+    /// How the polycube is simplified. Unless `simplicity`, `max_displacement` or `max_distortion` is set, the fewest
+    /// blocks are taken whose hexahedra are good. Of `scale` only `size` is used where that is given.
     Options simplify;
     /// Without one: as `Options::scale` says.
     std::optional<Size> size;
@@ -82,7 +82,7 @@ struct RemeshReport {
     std::uint64_t hexes = 0;       ///< Number of hexahedra; 0 for a surface alone.
     std::uint64_t hex_blocks = 0;  ///< Blocks of the base complex of the hexahedra, counted on the finished mesh.
     std::uint64_t inverted = 0;    ///< Hexahedra whose scaled Jacobian is not positive.
-    std::uint64_t released = 0;    ///< Vertices that left polycube corners and edges so that no hexahedron is inverted.
+    std::uint64_t released = 0;    ///< Vertices that left polycube corners and edges where hexahedra were inverted or poor.
     std::optional<double> min_scaled_jacobian;   ///< Nothing without hexahedra.
     std::optional<double> mean_scaled_jacobian;  ///< Nothing without hexahedra.
     double hausdorff = 0.0;           ///< Hausdorff distance between quadrilaterals and shape, in units of the shape.

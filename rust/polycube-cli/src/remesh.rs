@@ -1,13 +1,13 @@
 //! `polycube remesh`.
 
-use crate::args::{ToleranceArgs, percent, positive};
+use crate::args::{ToleranceArgs, at_least_one, fraction, percent, positive};
 use crate::colour;
 use crate::failure::{Failure, INFERIOR, Result};
 use crate::mesh_files::MeshFiles;
 use crate::output::Output;
 use crate::progress::Progress;
 use crate::report::{Files, RemeshRun};
-use crate::simplify::{LABELS, StrategyArg, format};
+use crate::simplify::{LABELS, ObjectiveArg, StrategyArg, format};
 use crate::{table, terminal};
 use clap::ValueHint;
 use polycube::mesh::{self, CellField, Format, Mesh};
@@ -74,9 +74,9 @@ pub struct Args {
     #[arg(long, value_enum, default_value_t)]
     pub strategy: StrategyArg,
 
-    /// The farthest that `best` may move a corner, in units of the polycube [default: a twelfth of its diagonal, less where that makes poor hexahedra]
-    #[arg(long, value_name = "D", value_parser = positive)]
-    pub max_displacement: Option<f64>,
+    /// Which result of `best` is meshed.
+    #[command(flatten)]
+    pub choice: ChoiceArgs,
 
     /// The largest Hausdorff distance between mesh and shape to accept, in percent of the bounding box's diagonal
     #[arg(long, value_name = "PERCENT", value_parser = percent, default_value_t = 0.5)]
@@ -89,6 +89,36 @@ pub struct Args {
     /// Print nothing but errors
     #[arg(short, long)]
     pub quiet: bool,
+}
+
+/// Which of the results between the fewest blocks and the least displacement is meshed.
+#[derive(clap::Args, Clone, Debug)]
+pub struct ChoiceArgs {
+    /// Which number `best` makes small [default: blocks_padded for hexahedra, surface_patches for --surface-only]
+    #[arg(long, value_enum)]
+    objective: Option<ObjectiveArg>,
+
+    /// Trade blocks for closeness: from 1, the fewest blocks that `best` finds, to 0, the least displacement [default: the
+    /// fewest whose hexahedra are good]
+    #[arg(long, value_name = "S", value_parser = fraction)]
+    simplicity: Option<f64>,
+
+    /// The farthest that `best` may move a corner, in units of the polycube [default: no limit]
+    #[arg(long, value_name = "D", value_parser = positive)]
+    max_displacement: Option<f64>,
+
+    /// The largest mean angle distortion of the map from the shape that a result of `best` may have, 1 or more
+    /// [default: no limit]
+    #[arg(long, value_name = "D", value_parser = at_least_one)]
+    max_distortion: Option<f64>,
+}
+
+impl ChoiceArgs {
+    /// These options for `simplify`.
+    pub fn set(&self, options: Options) -> Options {
+        let Self { simplicity, max_displacement, max_distortion, .. } = *self;
+        Options { objective: self.objective.map(|o| o.0), simplicity, max_displacement, max_distortion, ..options }
+    }
 }
 
 /// How fine a mesh is: one of three.
@@ -120,12 +150,11 @@ impl SizeArgs {
 impl Args {
     fn options(&self) -> RemeshOptions {
         RemeshOptions {
-            simplify: Options {
+            simplify: self.choice.set(Options {
                 strategy: self.strategy.0,
-                max_displacement: self.max_displacement,
                 tolerance: self.tolerance.get(),
                 ..Options::default()
-            },
+            }),
             size: self.size.get(),
             padding: usize::from(self.padding),
             surface_only: self.surface_only,

@@ -79,10 +79,7 @@ pub fn remesh_summary(report: &RemeshReport) -> String {
 }
 
 fn remesh_facts(report: &RemeshReport) -> Vec<(&'static str, String)> {
-    let mut facts = vec![
-        ("lattice", format!("{} steps per unit of the polycube", short(report.simplify.scale))),
-        ("quadrilaterals", report.quads.to_string()),
-    ];
+    let mut facts = vec![("lattice", lattice(report)), ("quadrilaterals", report.quads.to_string())];
     if let (Some(min), Some(average)) = (report.min_sj, report.avg_sj) {
         facts.push(("hexahedra", format!("{} in {} blocks", report.hexes, report.hex_blocks)));
         facts.push(("inverted", report.inverted.to_string()));
@@ -98,6 +95,11 @@ fn remesh_facts(report: &RemeshReport) -> Vec<(&'static str, String)> {
     let each: Vec<String> = stages.iter().map(|(name, t)| format!("{name} {t:.2}")).collect();
     facts.push(("seconds", format!("{:.2} ({})", s.total, each.join(", "))));
     facts
+}
+
+fn lattice(report: &RemeshReport) -> String {
+    let spaced = if report.spaced { ", spaced by the shape" } else { "" };
+    format!("{} steps per unit of the polycube{spaced}", short(report.simplify.scale))
 }
 
 fn gains(before: &Counts, after: &Counts) -> String {

@@ -59,7 +59,7 @@ impl PyJob {
     #[staticmethod]
     #[pyo3(
         signature = (shape, polycube, **options),
-        text_signature = "(shape, polycube, *, labels=None, hexes=None, edge_length=None, scale=None, padding=1, surface_only=False, max_hausdorff=0.5, strategy='best', objective=None, simplicity=1.0, max_displacement=None, max_distortion=None, locked_faces=None, guides=None, steps=400, proof_nodes=200, time_limit=None, lambda_min=0.0, solver='exact', angle_tolerance=30.0, level_tolerance=0.05)"
+        text_signature = "(shape, polycube, *, labels=None, hexes=None, edge_length=None, scale=None, padding=1, surface_only=False, max_hausdorff=0.5, strategy='best', objective=None, simplicity=None, max_displacement=None, max_distortion=None, locked_faces=None, guides=None, steps=400, proof_nodes=200, time_limit=None, lambda_min=0.0, solver='exact', angle_tolerance=30.0, level_tolerance=0.05)"
     )]
     fn remesh(
         py: Python<'_>,

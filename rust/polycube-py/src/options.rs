@@ -129,7 +129,7 @@ impl<'py> Keywords<'py> {
             solver: self.word("solver", &SOLVERS)?.unwrap_or_default(),
             objective: self.word("objective", &OBJECTIVES)?,
             effort: self.effort()?,
-            simplicity: Some(self.fraction("simplicity")?.unwrap_or(1.0)),
+            simplicity: self.fraction("simplicity")?,
             max_displacement: self.positive("max_displacement")?,
             max_distortion: self.number("max_distortion", "of 1 or more", |x| x >= 1.0)?,
             guides: self.guides()?,

@@ -370,8 +370,10 @@ impl PyRemeshed {
 ///     padding: layers of hexahedra between the polycube and the surface, 0 to 16.
 ///     surface_only: leave the hexahedra out.
 ///     max_hausdorff: the largest distance between mesh and shape to accept, in percent of the diagonal.
-///     max_displacement: the farthest that a corner may move, in units of the polycube. A twelfth of its diagonal.
-///     strategy, objective, simplicity, max_distortion, locked_faces, guides, steps, proof_nodes, time_limit, lambda_min, solver,
+///     max_displacement: the farthest that a corner may move, in units of the polycube.
+///     simplicity: from 1, the fewest blocks, to 0, the least displacement. If neither this nor a limit is given, the fewest blocks
+///         whose hexahedra are good.
+///     strategy, objective, max_distortion, locked_faces, guides, steps, proof_nodes, time_limit, lambda_min, solver,
 ///         angle_tolerance, level_tolerance, progress, cancel: as in `simplify`. "naive" meshes the polycube as it is.
 ///
 /// Raises:
@@ -385,7 +387,7 @@ impl PyRemeshed {
 #[pyfunction]
 #[pyo3(
     signature = (shape, polycube, *, progress=None, cancel=None, **options),
-    text_signature = "(shape, polycube, *, labels=None, hexes=None, edge_length=None, scale=None, padding=1, surface_only=False, max_hausdorff=0.5, strategy='best', objective=None, simplicity=1.0, max_displacement=None, max_distortion=None, locked_faces=None, guides=None, steps=400, proof_nodes=200, time_limit=None, lambda_min=0.0, solver='exact', angle_tolerance=30.0, level_tolerance=0.05, progress=None, cancel=None)"
+    text_signature = "(shape, polycube, *, labels=None, hexes=None, edge_length=None, scale=None, padding=1, surface_only=False, max_hausdorff=0.5, strategy='best', objective=None, simplicity=None, max_displacement=None, max_distortion=None, locked_faces=None, guides=None, steps=400, proof_nodes=200, time_limit=None, lambda_min=0.0, solver='exact', angle_tolerance=30.0, level_tolerance=0.05, progress=None, cancel=None)"
 )]
 pub fn remesh<'py>(
     py: Python<'py>,

@@ -64,6 +64,33 @@ fn the_front_trades_blocks_for_displacement() {
     assert!(moved(&bounded) <= limit, "{} > {limit}", moved(&bounded));
 }
 
+/// The largest step between points of a front that come next to each other, as a part of all the way from the fewest blocks to the most.
+fn largest_step(result: &Alignment) -> f64 {
+    let counts: Vec<usize> = result.front.iter().map(|p| p.count).collect();
+    let all = counts[counts.len() - 1] - counts[0];
+    counts.windows(2).map(|w| (w[1] - w[0]) as f64).fold(0.0, f64::max) / all as f64
+}
+
+#[test]
+fn no_step_of_the_front_is_half_of_the_way_from_the_fewest_blocks_to_the_input() {
+    let random = (0..cases(10)).map(|seed| {
+        let voxels = random_with_corners(seed, 60).expect("a random polycube");
+        (format!("seed {seed}"), coarse(&voxels, CellKind::Quads))
+    });
+    for (name, mesh) in random.chain(data::models()) {
+        let polycube = Polycube::new(&mesh, None, &Tolerance::default()).expect("the model is a polycube");
+        let effort = Effort { steps_per_level: 100, proof_nodes: 0, ..Effort::default() };
+        let found = run(&polycube, &Options { effort, ..Options::default() });
+        let pairs = || found.front.windows(2);
+        assert!(pairs().all(|p| p[0].count < p[1].count && p[0].displacement > p[1].displacement), "{name}");
+        if found.front[found.front.len() - 1].count >= found.front[0].count + 100 {
+            let step = largest_step(&found);
+            println!("{name}: {} points, largest step {step:.2}", found.front.len());
+            assert!(step < 0.5, "{name}: {:?}", found.front.iter().map(|p| p.count).collect::<Vec<_>>());
+        }
+    }
+}
+
 /// Upper bounds at scale 1, above what the search reached when this was written.
 const REACHED: [(&str, usize); 16] = [
     ("alla2019-casting", 910),

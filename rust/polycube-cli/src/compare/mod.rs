@@ -4,12 +4,12 @@ mod csv;
 mod pairs;
 mod rows;
 
-use crate::args::{ToleranceArgs, positive};
+use crate::args::ToleranceArgs;
 use crate::failure::{FAILURE, Result};
 use crate::mesh_files::read_meshes;
 use crate::output;
 use crate::progress::Progress;
-use crate::remesh::SizeArgs;
+use crate::remesh::{ChoiceArgs, SizeArgs};
 use crate::simplify::StrategyArg;
 use crate::table::Style;
 use crate::terminal;
@@ -66,9 +66,9 @@ pub struct Args {
     #[arg(long, value_enum, default_value_t)]
     strategy: StrategyArg,
 
-    /// The farthest that `best` may move a corner, in units of the polycube [default: a twelfth of its diagonal]
-    #[arg(long, value_name = "D", value_parser = positive)]
-    max_displacement: Option<f64>,
+    /// Which result of `best` is meshed.
+    #[command(flatten)]
+    choice: ChoiceArgs,
 
     /// How far the polycubes may be from exact ones.
     #[command(flatten)]
@@ -116,12 +116,11 @@ struct Row {
 
 impl Args {
     fn options(&self) -> RemeshOptions {
-        let simplify = Options {
+        let simplify = self.choice.set(Options {
             strategy: self.strategy.0,
-            max_displacement: self.max_displacement,
             tolerance: self.tolerance.get(),
             ..Options::default()
-        };
+        });
         let (padding, surface_only) = (usize::from(self.padding), self.surface_only);
         RemeshOptions { simplify, size: self.size.get(), padding, surface_only, ..RemeshOptions::default() }
     }

@@ -1,14 +1,14 @@
 //! From coarse lattices to fine ones: what a coarse mesh costs little to find is where a fine one starts.
 
-use super::choose::is_flexible;
 use super::grid::Grid;
-use super::improve::improve;
+use super::improve::{Improved, improve};
 use super::interior::interpolate;
 use super::keys::{Keys, rank};
 use super::padding::Padding;
 use super::pipeline::RemeshOptions;
 use super::report::cells_of;
 use super::spacing::{spaced, tamed};
+use super::start::is_flexible;
 use super::warp::{Warp, on_levels};
 use super::{Hexes, Remesher, count_hexes};
 use crate::align::{self, Options, Strategy};
@@ -62,6 +62,8 @@ pub(super) struct Rung {
     layers: Vec<Vec<Point>>,
     /// Its worst scaled Jacobian.
     pub(super) worst: f64,
+    /// Its mean scaled Jacobian.
+    pub(super) average: f64,
 }
 
 impl Rung {
@@ -78,7 +80,7 @@ impl Rung {
             }
             all.push(lattice.clone());
         }
-        Self { grid, levels, layers: all, worst: worst(hexes) }
+        Self { grid, levels, layers: all, worst: worst(hexes), average: average(hexes) }
     }
 
     /// How long the lattice edges along each axis are in each layer of cells, from the lowest: root mean squares.
@@ -131,6 +133,12 @@ fn worst(hexes: &Hexes) -> f64 {
     cells_of(hexes).iter().map(|c| scaled_jacobian(&hexes.mesh.points, c)).fold(1.0, f64::min)
 }
 
+/// The mean scaled Jacobian of a mesh.
+fn average(hexes: &Hexes) -> f64 {
+    let cells = cells_of(hexes);
+    cells.iter().map(|c| scaled_jacobian(&hexes.mesh.points, c)).sum::<f64>() / cells.len().max(1) as f64
+}
+
 /// The finished mesh of a lattice about half as fine, which started from one half as fine again, and so on; nothing if there
 /// is none.
 ///
@@ -153,14 +161,14 @@ pub(super) fn climb(
         };
         let remesher = Remesher::new(&map, shape, &context)?;
         let mut hexes = remesher.hexes(options.padding, &context)?;
-        finish(rung, &remesher, &mut hexes, options, &context)?;
+        finish(rung, &remesher, &mut hexes, options, f64::INFINITY, &context)?;
         rung = Some(Rung::new(remesher, &hexes, options.padding));
     }
     Ok(rung)
 }
 
-/// Improves `hexes`, starting from the mesh of a coarser lattice if that leads to no inverted hexahedron, else as they are.
-/// Returns how many vertices were released.
+/// Improves `hexes`, starting from the mesh of a coarser lattice if that leads to no inverted hexahedron, else as they are; the shape shall
+/// be no farther from them than `bound`.
 ///
 /// # Errors
 /// Those of [`optimise`](crate::optimise::optimise()).
@@ -169,16 +177,18 @@ pub(super) fn finish(
     remesher: &Remesher,
     hexes: &mut Hexes,
     options: &RemeshOptions,
+    bound: f64,
     context: &Context,
-) -> Result<usize> {
-    let improve = |hexes: &mut Hexes| improve(remesher.simplified, hexes, remesher.shape, &options.optimise, context);
+) -> Result<Improved> {
+    let improve =
+        |hexes: &mut Hexes| improve(remesher.simplified, hexes, remesher.shape, &options.optimise, bound, context);
     if let Some(rung) = rung.filter(|r| r.worst > 0.0) {
         let mut started = hexes.clone();
         rung.start(remesher, &mut started)?;
-        let released = improve(&mut started)?;
+        let improved = improve(&mut started)?;
         if worst(&started) > 0.0 {
             *hexes = started;
-            return Ok(released);
+            return Ok(improved);
         }
     }
     improve(hexes)

@@ -80,7 +80,7 @@ fn samples(mesh: &Mesh, face: &Face) -> Vec<Point> {
 }
 
 /// A face as triangles: a flat quadrilateral as two, a bent one as four around its centre.
-fn triangles(mesh: &Mesh, face: &Face) -> Vec<[Point; 3]> {
+pub(super) fn triangles(mesh: &Mesh, face: &Face) -> Vec<[Point; 3]> {
     let at = |v: u32| mesh.points[v as usize];
     match *face {
         Face::Triangle(t) => vec![t.map(at)],

@@ -1,6 +1,7 @@
 //! Optimises hexahedra with their surface on that of the shape.
 
 use super::Hexes;
+use super::gaps::samples;
 use super::report::cells_of;
 use super::site::Site;
 use super::slide::{Hold, Slides};
@@ -21,36 +22,52 @@ const LATE_ROUNDS: usize = 15;
 /// How often vertices of inverted hexahedra are released.
 const RELEASES: usize = 4;
 /// Hexahedra of a lower scaled Jacobian may have vertices released where the shape is smooth.
-const POOR: f64 = 0.6;
+pub(super) const POOR: f64 = 0.6;
+
+/// What became of a mesh.
+#[derive(Clone, Copy)]
+pub(super) struct Improved {
+    /// Vertices that left corners and edges.
+    pub(super) released: usize,
+    /// How far the shape is from the mesh; 0 if it is as near as it shall be.
+    pub(super) far: f64,
+}
 
 /// Moves the vertices of a mesh until no hexahedron is inverted and the worst is as good as can be had.
 ///
 /// Inverted ones are first untangled with the surface held, then with the edges held, so that surface vertices do not
 /// slide past each other, from where there is no way back. Vertices of inverted hexahedra may leave corners and edges for
-/// the surface around, and so may those of poor ones where the shape has no crease; returns how many did.
+/// the surface around, and so may those of poor ones where the shape has no crease. Where the shape is farther
+/// than `bound` from the mesh, vertices are put on what is cut off, as far as the hexahedra stay good.
 pub(super) fn improve(
     map: &Simplified,
     hexes: &mut Hexes,
     shape: &[Point],
     settings: &Settings,
+    bound: f64,
     context: &Context,
-) -> Result<usize> {
+) -> Result<Improved> {
     let slides = Slides::new(&map.input, shape)?;
     let elements = Elements::boxes_like(cells_of(hexes), &hexes.mesh.points, SMOOTHING)?;
     let freedom = slides.freedoms(&hexes.sites, Hold::Corners);
     let mut job = Job { elements, guides: slides.guides(), slides: &slides, hexes, freedom, released: 0 };
     job.untangle(settings, &context.stage("untangle", 0.0, 0.4))?;
-    job.passes(settings, &context.stage("optimise", 0.4, 1.0))?;
-    Ok(job.released)
+    job.passes(settings, &context.stage("optimise", 0.4, 0.8))?;
+    let mut far = 0.0;
+    if bound.is_finite() {
+        let settings = Settings { untangle_rounds: settings.untangle_rounds.min(LATE_ROUNDS), ..settings.clone() };
+        far = job.reach(&samples(&map.input.surface, shape), bound, &settings, &context.stage("optimise", 0.8, 1.0))?;
+    }
+    Ok(Improved { released: job.released, far })
 }
 
 /// A mesh on the way to be improved.
-struct Job<'a> {
+pub(super) struct Job<'a> {
     elements: Elements,
-    guides: Vec<&'a dyn Guide>,
+    pub(super) guides: Vec<&'a dyn Guide>,
     slides: &'a Slides,
-    hexes: &'a mut Hexes,
-    freedom: Vec<Freedom>,
+    pub(super) hexes: &'a mut Hexes,
+    pub(super) freedom: Vec<Freedom>,
     released: usize,
 }
 
@@ -92,7 +109,7 @@ impl Job<'_> {
     }
 
     /// One optimisation; how many hexahedra are inverted after it.
-    fn run(&mut self, freedom: &[Freedom], settings: &Settings, context: &Context) -> Result<usize> {
+    pub(super) fn run(&mut self, freedom: &[Freedom], settings: &Settings, context: &Context) -> Result<usize> {
         let points = &mut self.hexes.mesh.points;
         Ok(optimise(points, &self.elements, freedom, &self.guides, settings, context)?.inverted_after)
     }
@@ -130,8 +147,13 @@ impl Job<'_> {
         Ok(())
     }
 
+    /// All of the shape's surface.
+    pub(super) fn whole(&self) -> &dyn Guide {
+        self.slides.whole()
+    }
+
     /// Asks for boxes of the sizes that the hexahedra have by now.
-    fn resize(&mut self) -> Result<()> {
+    pub(super) fn resize(&mut self) -> Result<()> {
         self.elements = Elements::boxes_like(cells_of(self.hexes), &self.hexes.mesh.points, SMOOTHING)?;
         Ok(())
     }

@@ -1,12 +1,15 @@
 //! The whole way from a polycube and its shape to a block structure, quadrilaterals and hexahedra.
 
-use super::choose::{Start, choose};
+use super::choose::{Choice, keeps_promise};
 use super::climb::{Rung, finish};
+use super::improve::Improved;
 use super::report::{RemeshReport, Stages, cells_of, diagonal, measure};
+use super::start::Start;
 
 use super::{Hexes, Layout, Quads, Remesher, Size, untangle};
 use crate::context::Context;
 use crate::error::{Error, ErrorKind, Result};
+use crate::layout::Objective;
 use crate::mesh::Mesh;
 use crate::optimise::Settings;
 use crate::simplify::{self, Input, Simplified, simplify};
@@ -16,9 +19,9 @@ use std::time::Instant;
 #[derive(Clone, Debug, PartialEq)]
 pub struct RemeshOptions {
     /// How the polycube is simplified; [`Strategy::Naive`](crate::align::Strategy::Naive) meshes it as it is. Of `scale` only [`size`](Self::size) is used
-    /// where that is given. Unless it bounds the displacement, corners move by a twelfth of the polycube's diagonal at most,
-    /// as far as that can be had; and unless it says where on the front or how far, they move less where a coarse mesh of the
-    /// fewest blocks is poor, and a note says so.
+    /// where that is given. Without an objective it is padded blocks that count, unless only the surface is meshed. Unless the options
+    /// say where on the front, how far corners may move, or how distorted the map may be, more blocks than the fewest are taken where
+    /// those make poor hexahedra, and a note says so.
     pub simplify: simplify::Options,
     /// How fine the mesh shall be; by default as [`simplify::Options::scale`] says.
     pub size: Option<Size>,
@@ -66,7 +69,7 @@ pub struct Remeshed {
 ///
 /// The map from shape to polycube is made one to one on every facet; the lattice of the wanted size is mapped back
 /// through it, padded, and optimised with the surface sliding on the shape until no hexahedron is inverted and the worst is
-/// as good as can be had. Surface vertices leave the shape, by less than the bound, where quadrilaterals would cut off more.
+/// as good as can be had; where the mesh cuts off more of the shape than the bound, surface vertices are put there.
 /// Levels are spaced by the shape, unless the scale is given. Where inverted hexahedra remain or the surface is farther from the shape than asked for, the result
 /// is given all the same and the report says so. Without a shape the polycube itself is meshed.
 ///
@@ -82,15 +85,15 @@ pub fn remesh(input: &Input, options: &RemeshOptions, context: &Context) -> Resu
     }
     let start = Instant::now();
     let seconds = || start.elapsed().as_secs_f64();
-    let found = simplify(input, &simplifying(input, options), &context.stage("simplify", 0.0, 0.2))?;
+    let found = simplify(input, &simplifying(options), &context.stage("simplify", 0.0, 0.2))?;
     let mut stages = Stages { simplify: seconds(), ..Stages::default() };
     let spent = found.report.seconds;
-    let Start { mut simplified, map, shape: fine, rung } =
-        choose(input, found, options, &context.stage("map", 0.2, 0.5))?;
+    let mut choice = Choice::new(input, found, options, &context.stage("map", 0.2, 0.5))?;
     stages.map = seconds() - stages.simplify;
+    let (mut simplified, meshed) = best(&mut choice, options, &mut stages, &context.stage("mesh", 0.5, 0.9))?;
+    choice.explain(&mut simplified);
     simplified.report.seconds = spent;
     let shape = input.shape.unwrap_or(input.polycube);
-    let meshed = mesh(&map, &fine, rung, options, &mut stages, &context.stage("mesh", 0.5, 0.9))?;
     untangle(&mut simplified, input, &context.stage("map", 0.9, 0.95))?;
     let report = measure(&simplified, &meshed, shape, options, stages, &context.stage("measure", 0.95, 1.0))?;
     let Meshed { layout, quads, hexes, scaled_jacobian, .. } = meshed;
@@ -99,10 +102,48 @@ pub fn remesh(input: &Input, options: &RemeshOptions, context: &Context) -> Resu
     Ok(result)
 }
 
-/// How the polycube is simplified: corners stay near unless the options say otherwise.
-fn simplifying(input: &Input, options: &RemeshOptions) -> simplify::Options {
-    let near = diagonal(input.polycube) / 12.0;
-    simplify::Options { max_displacement: options.simplify.max_displacement.or(Some(near)), ..options.simplify.clone() }
+/// How the polycube is simplified: for hexahedra it is padded blocks that count, whatever the cells of the polycube are.
+fn simplifying(options: &RemeshOptions) -> simplify::Options {
+    let blocks = (!options.surface_only).then_some(Objective::BlocksPadded);
+    simplify::Options { objective: options.simplify.objective.or(blocks), ..options.simplify.clone() }
+}
+
+/// Inverted hexahedra, whether the mesh is poorer than promised, how far from the shape if farther than asked for, and how bad its
+/// worst hexahedron is: the less, the better.
+type Rank = (usize, bool, f64, f64);
+
+/// The first mesh that is as good as its coarse one promised and as near to the shape as asked for, else the best: the one with the
+/// fewest inverted hexahedra, then one as good as promised, then the one that is nearest, then that with the best worst hexahedron.
+fn best(
+    choice: &mut Choice,
+    options: &RemeshOptions,
+    stages: &mut Stages,
+    context: &Context,
+) -> Result<(Simplified, Meshed)> {
+    let mut best = None;
+    // Each takes half of the progress that is left: mostly there is one.
+    let mut done = 0.0;
+    loop {
+        let inverted = best.as_ref().is_none_or(|((inverted, ..), ..): &(Rank, _, _)| *inverted > 0);
+        let next = choice.next(inverted, &context.stage("map", done, done))?;
+        let Some(Start { simplified, map, shape, rung, spaced }) = next else { break };
+        let promise = rung.as_ref().map(|r| r.worst);
+        let share = (1.0 - done) / 2.0;
+        let mut meshed = mesh(&map, &shape, rung, options, stages, &context.stage("mesh", done, done + share))?;
+        meshed.spaced = spaced;
+        done += share;
+        let poor = !keeps_promise(meshed.worst, promise);
+        let rank = (meshed.inverted, poor, meshed.far, -meshed.worst);
+        let enough = !poor && meshed.far == 0.0;
+        if best.as_ref().is_none_or(|b| rank < b.0) {
+            best = Some((rank, simplified, meshed));
+        }
+        if enough {
+            break;
+        }
+    }
+    let found = best.map(|(_, simplified, meshed)| (simplified, meshed));
+    found.ok_or_else(|| Error::new(ErrorKind::Internal, "there was nothing to mesh"))
 }
 
 /// Turns flipped tetrahedra of the polycube the right way round, as far as that goes.
@@ -121,8 +162,16 @@ pub(super) struct Meshed {
     pub(super) quads: Quads,
     pub(super) hexes: Option<Hexes>,
     pub(super) scaled_jacobian: Vec<f64>,
+    /// How many of them are not positive.
+    inverted: usize,
+    /// The worst; 1 where there are none.
+    worst: f64,
+    /// How far the shape is from the surface; 0 if it is within the bound, as far as could be seen.
+    far: f64,
     /// Vertices that had to leave their corners and edges.
     pub(super) released: usize,
+    /// Whether the levels were spaced by the shape.
+    pub(super) spaced: bool,
 }
 
 fn mesh(
@@ -139,16 +188,33 @@ fn mesh(
     if options.surface_only {
         let points = remesher.surface_points(&context.stage("mesh", 0.1, 1.0))?.points;
         let layout = remesher.layout(&points, 0)?;
-        stages.mesh = start.elapsed().as_secs_f64();
-        return Ok(Meshed { layout, quads, hexes: None, scaled_jacobian: Vec::new(), released: 0 });
+        stages.mesh += start.elapsed().as_secs_f64();
+        let scaled_jacobian = Vec::new();
+        return Ok(Meshed {
+            layout,
+            quads,
+            hexes: None,
+            scaled_jacobian,
+            inverted: 0,
+            worst: 1.0,
+            far: 0.0,
+            released: 0,
+            spaced: false,
+        });
     }
     let mut hexes = remesher.hexes(options.padding, &context.stage("mesh", 0.1, 0.2))?;
-    stages.mesh = start.elapsed().as_secs_f64();
-    let released = finish(rung, &remesher, &mut hexes, options, &context.stage("optimise", 0.2, 1.0))?;
-    stages.optimise = start.elapsed().as_secs_f64() - stages.mesh;
+    let optimising = Instant::now();
+    stages.mesh += (optimising - start).as_secs_f64();
+    let bound = options.max_hausdorff * diagonal(shape);
+    let Improved { released, far } =
+        finish(rung, &remesher, &mut hexes, options, bound, &context.stage("optimise", 0.2, 1.0))?;
+    stages.optimise += optimising.elapsed().as_secs_f64();
     quads.mesh.points = remesher.surface_of(&hexes.mesh.points, options.padding);
     let layout = remesher.layout(&hexes.mesh.points, options.padding)?;
     let cells = cells_of(&hexes);
-    let scaled_jacobian = cells.iter().map(|c| crate::optimise::scaled_jacobian(&hexes.mesh.points, c)).collect();
-    Ok(Meshed { layout, quads, hexes: Some(hexes), scaled_jacobian, released })
+    let scaled_jacobian: Vec<f64> =
+        cells.iter().map(|c| crate::optimise::scaled_jacobian(&hexes.mesh.points, c)).collect();
+    let inverted = scaled_jacobian.iter().filter(|q| q.is_nan() || **q <= 0.0).count();
+    let worst = scaled_jacobian.iter().copied().fold(1.0, f64::min);
+    Ok(Meshed { layout, quads, hexes: Some(hexes), scaled_jacobian, inverted, worst, far, released, spaced: false })
 }

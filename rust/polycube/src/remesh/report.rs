@@ -14,9 +14,13 @@ pub const MOST_LISTED: usize = 1000;
 /// What was done, for people and programs: what [`simplify::Report`] says and how good the meshes are.
 #[derive(Clone, Debug, PartialEq, serde::Serialize)]
 pub struct RemeshReport {
-    /// What the simplification did, with the seconds of all stages of the remeshing.
+    /// What the simplification did, with the seconds of all stages of the remeshing. Scale, displacement and distortion are those on the
+    /// even lattice, also where the levels were [`spaced`](Self::spaced) after that.
     #[serde(flatten)]
     pub simplify: simplify::Report,
+    /// Whether the levels were spaced by the shape: as many lattice steps between two as its edges there are long. A lattice step is then
+    /// no fixed length on the polycube.
+    pub spaced: bool,
     /// Number of quadrilaterals.
     pub quads: usize,
     /// Number of hexahedra; 0 for a surface alone.
@@ -43,6 +47,9 @@ pub struct RemeshReport {
     pub hausdorff: f64,
     /// The same in percent of the diagonal of the shape's bounding box.
     pub hausdorff_percent: f64,
+    /// The bound asked for, as a part of that diagonal.
+    #[serde(skip)]
+    pub max_hausdorff: f64,
     /// Whether that is within the bound asked for.
     pub within_hausdorff: bool,
     /// Time spent in the stages of remeshing, in seconds; files have those in [`simplify`](Self::simplify).
@@ -104,6 +111,7 @@ pub(super) fn measure(
     let some = meshed.hexes.is_some();
     let mut report = RemeshReport {
         simplify: simplified.report.clone(),
+        spaced: meshed.spaced,
         quads: meshed.quads.mesh.cells.len(),
         hexes: found.cells,
         hex_blocks: meshed.hexes.as_ref().map_or(Ok(0), count_blocks)?,
@@ -117,13 +125,14 @@ pub(super) fn measure(
         volume: if some { found.volume } else { 0.0 },
         hausdorff: distance,
         hausdorff_percent: 100.0 * distance / diagonal,
+        max_hausdorff: options.max_hausdorff,
         within_hausdorff: distance <= options.max_hausdorff * diagonal,
         seconds,
     };
     if meshed.released > 0 {
         let n = meshed.released;
         let note = format!(
-            "{n} vertices left polycube corners and edges for the surface around, so that no hexahedron is inverted"
+            "{n} vertices left polycube corners and edges for the surface around, which made inverted or poor hexahedra better"
         );
         report.simplify.notes.push(note);
     }
@@ -148,6 +157,16 @@ impl RemeshReport {
         self.inverted == 0 && self.within_hausdorff
     }
 
+    /// How many cells bring the distance within the bound, if it shrinks in proportion to the length of edges: details do, smooth shapes
+    /// are faster.
+    fn near_enough(&self) -> String {
+        let finer = self.hausdorff_percent / (100.0 * self.max_hausdorff);
+        match self.hexes {
+            0 => format!("{} quadrilaterals", rounded(self.quads as f64 * finer * finer)),
+            n => format!("{} hexahedra", rounded(n as f64 * finer * finer * finer)),
+        }
+    }
+
     /// What is not as good as asked for, in plain words.
     pub fn faults(&self) -> Vec<String> {
         let mut faults = Vec::new();
@@ -159,12 +178,19 @@ impl RemeshReport {
         }
         if !self.within_hausdorff {
             faults.push(format!(
-                "the Hausdorff distance is {:.3} % of the diagonal, more than asked for: a finer mesh is nearer",
-                self.hausdorff_percent
+                "the Hausdorff distance is {:.3} % of the diagonal, more than asked for: {} are likely to be near enough",
+                self.hausdorff_percent,
+                self.near_enough()
             ));
         }
         faults
     }
+}
+
+/// A count as people say it: two digits and zeros.
+fn rounded(count: f64) -> f64 {
+    let unit = libm::pow(10.0, (libm::log10(count.max(1.0)).floor() - 1.0).max(0.0));
+    (count / unit).ceil() * unit
 }
 
 fn count_blocks(hexes: &Hexes) -> Result<usize> {

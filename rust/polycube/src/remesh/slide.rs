@@ -55,6 +55,11 @@ impl Slides {
         facets.chain(edges).chain([&self.whole as &dyn Guide]).collect()
     }
 
+    /// All of the surface.
+    pub(super) fn whole(&self) -> &dyn Guide {
+        &self.whole
+    }
+
     /// A vertex that may slide on all of the surface.
     pub(super) fn released(&self) -> Freedom {
         Freedom::Guided((self.facets.len() + self.edges.len()) as u32)

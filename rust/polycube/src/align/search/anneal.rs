@@ -87,6 +87,8 @@ pub struct Schedule {
     pub weight: f64,
     /// Whether two levels may move at once.
     pub paired: bool,
+    /// The largest [`State::shape_cost`] to accept.
+    pub most: f64,
 }
 
 /// A walker on a landscape.
@@ -160,6 +162,9 @@ impl Chain<'_> {
         let (ranks, axis) = self.landscape.moves.draw(&now.ranks, schedule.paired, random)?;
         let mut shape = now.shape;
         shape[axis] = self.shape(&ranks, axis);
+        if shape.iter().sum::<f64>() > schedule.most {
+            return None;
+        }
         let count = self.count(&ranks)?;
         let next = State { ranks, count, shape };
         let energy = self.energy(&next, schedule.weight);

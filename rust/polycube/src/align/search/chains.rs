@@ -8,18 +8,27 @@ use crate::error::{Error, ErrorKind, Result};
 
 /// The first chains, two from the result of Algorithm 1 and two from that of greedy merging, of which one each minds displacement.
 const FIRST: [Schedule; 4] = [
-    Schedule { seed: 1, steps: 0, hot: 0.05, cold: 0.002, weight: 0.01, paired: false },
-    Schedule { seed: 2, steps: 0, hot: 0.1, cold: 0.002, weight: 0.01, paired: false },
-    Schedule { seed: 3, steps: 0, hot: 0.05, cold: 0.002, weight: 0.3, paired: false },
-    Schedule { seed: 4, steps: 0, hot: 0.05, cold: 0.002, weight: 2.0, paired: false },
+    WARM,
+    Schedule { seed: 2, hot: 0.1, ..WARM },
+    Schedule { seed: 3, weight: 0.3, ..WARM },
+    Schedule { seed: 4, weight: 2.0, ..WARM },
 ];
+
+const WARM: Schedule =
+    Schedule { seed: 1, steps: 0, hot: 0.05, cold: 0.002, weight: 0.01, paired: false, most: f64::INFINITY };
 
 /// The last chains, two by two from the coarsest state so far, cooler, with two levels at once. On large polycubes they find what
 /// single levels do not; small ones are done before.
 const LAST: [Schedule; 4] = {
-    const COOL: Schedule = Schedule { seed: 5, steps: 0, hot: 0.02, cold: 0.001, weight: 0.01, paired: true };
+    const COOL: Schedule = Schedule { seed: 5, hot: 0.02, cold: 0.001, paired: true, ..WARM };
     [COOL, Schedule { seed: 6, ..COOL }, Schedule { seed: 7, ..COOL }, Schedule { seed: 8, ..COOL }]
 };
+
+/// How far the chains that make the front denser may move corners, as parts of the displacement of the coarsest state.
+const BOUNDS: [f64; 6] = [0.7, 0.5, 0.35, 0.25, 0.18, 0.12];
+/// How many times shorter they are than others.
+const SHORTER: u32 = 3;
+const NEAR: Schedule = Schedule { weight: 0.3, ..WARM };
 
 /// Walks all chains and leaves what they see in `front`, which must hold where they begin.
 pub fn walk(
@@ -44,6 +53,26 @@ pub fn walk(
             front,
             &context.stage("search", 0.5 + 0.25 * half as f64, 0.75 + 0.25 * half as f64),
         )?;
+    }
+    Ok(())
+}
+
+/// Makes the front denser: chains that may move corners half as far as the coarsest state does, less far, and so on, each from the
+/// coarsest state that keeps its bound.
+pub fn fill(landscape: &Landscape, effort: &Effort, front: &mut Front, context: &Context) -> Result<()> {
+    let Some(farthest) = front.states().next().map(State::shape_cost) else { return Ok(()) };
+    let steps = effort.steps_per_level / SHORTER;
+    let steps = landscape.affordable(steps.saturating_mul(landscape.structure.levels.len() as u32));
+    for (k, pair) in BOUNDS.chunks(2).enumerate() {
+        let [from, to] = [k, k + 1].map(|k| (2 * k) as f64 / BOUNDS.len() as f64);
+        let jobs = [0, 1].map(|i| {
+            let most = farthest * pair[i] * pair[i];
+            let start = front.states().find(|s| s.shape_cost() <= most)?.clone();
+            Some((start, Schedule { seed: 9 + (2 * k + i) as u64, steps, most, ..NEAR }))
+        });
+        if let [Some(own), Some(other)] = jobs {
+            walk_two(landscape, [own, other], front, &context.stage("search", from, to))?;
+        }
     }
     Ok(())
 }

@@ -1,23 +1,46 @@
 //! Greedy merging: align the two levels that save most, recount, repeat.
 
 use super::anneal::{Chain, Landscape, State};
+use super::front::Front;
 use crate::context::Context;
 use crate::error::Result;
 
-/// Aligns one level with another, the pair that saves most first, until no pair saves anything or the work gets too much.
+/// What a merge is worth: from one state to another, positive if it shall be done at all.
+pub type Worth = fn(&State, &State) -> f64;
+
+/// How much less is counted.
+pub fn saved(from: &State, to: &State) -> f64 {
+    from.count as f64 - to.count as f64
+}
+
+/// How much less is counted for what it costs in displacement.
+pub fn saved_per_cost(from: &State, to: &State) -> f64 {
+    let cost = (to.shape_cost() - from.shape_cost()).max(0.0);
+    saved(from, to) / cost.max(f64::MIN_POSITIVE)
+}
+
+/// Aligns one level with another, the pair that is worth most first, until no pair saves anything or the work gets too much.
+/// All states on the way are offered to the front.
 ///
-/// Savings are looked up again only for the pairs that promise most: those whose saving was largest when last counted.
+/// Savings are looked up again only for the pairs that promise most: those that were worth most when last counted.
 /// O(n²) counts for n levels, and a few for every merge; of so many levels that these are too many, only the nearest pairs.
-pub fn merge(landscape: &Landscape, chain: &mut Chain, start: State, context: &Context) -> Result<State> {
+pub fn merge(
+    landscape: &Landscape,
+    chain: &mut Chain,
+    start: State,
+    worth: Worth,
+    front: &mut Front,
+    context: &Context,
+) -> Result<State> {
     let mut now = start;
     let mut counts = landscape.affordable(u32::MAX);
-    let mut promises: Vec<(i64, (u32, u32))> =
-        pairs(landscape, counts / 2).into_iter().map(|p| (i64::MAX, p)).collect();
+    let mut promises: Vec<(f64, (u32, u32))> =
+        pairs(landscape, counts / 2).into_iter().map(|p| (f64::INFINITY, p)).collect();
     loop {
-        let mut best: Option<(i64, State)> = None;
-        promises.sort_by_key(|p| std::cmp::Reverse(p.0));
-        for (saved, (level, onto)) in &mut promises {
-            if best.as_ref().is_some_and(|b| b.0 >= *saved) || counts == 0 {
+        let mut best: Option<(f64, State)> = None;
+        promises.sort_by(|p, q| q.0.total_cmp(&p.0));
+        for (promise, (level, onto)) in &mut promises {
+            if best.as_ref().is_some_and(|b| b.0 >= *promise) || counts == 0 {
                 break;
             }
             context.tick(0.0)?;
@@ -25,17 +48,18 @@ pub fn merge(landscape: &Landscape, chain: &mut Chain, start: State, context: &C
                 counts -= 1;
                 chain.state(ranks)
             });
-            *saved = next.as_ref().map_or(i64::MIN, |s| now.count as i64 - s.count as i64);
+            *promise = next.as_ref().map_or(f64::NEG_INFINITY, |s| worth(&now, s));
             if let Some(state) = next
-                && *saved > best.as_ref().map_or(0, |b| b.0)
+                && *promise > best.as_ref().map_or(0.0, |b| b.0)
             {
-                best = Some((*saved, state));
+                best = Some((*promise, state));
             }
         }
         let Some((_, state)) = best else { return Ok(now) };
+        front.offer(&state);
         now = state;
         // A merge may make possible what was not: ask those again that were impossible or useless.
-        promises.iter_mut().filter(|p| p.0 <= 0).for_each(|p| p.0 = 1);
+        promises.iter_mut().filter(|p| p.0 <= 0.0).for_each(|p| p.0 = f64::MIN_POSITIVE);
     }
 }
 

@@ -133,11 +133,13 @@ fn run(landscape: &Landscape, starts: &[Ranks; 2], effort: &Effort, context: &Co
     let Some(input) = valid.last().cloned() else {
         return Err(Error::new(ErrorKind::Internal, "the start of the search is not valid"));
     };
-    let merged = greedy::merge(landscape, &mut chain, input, context)?;
-    let begin = [valid[0].clone(), merged.clone()];
     let mut front = Front::default();
-    valid.iter().chain([&merged]).for_each(|s| front.offer(s));
-    chains::walk(landscape, &begin, effort, &mut front, context)?;
+    valid.iter().for_each(|s| front.offer(s));
+    let merged = greedy::merge(landscape, &mut chain, input.clone(), greedy::saved, &mut front, context)?;
+    let begin = [valid[0].clone(), merged.clone()];
+    chains::walk(landscape, &begin, effort, &mut front, &context.stage("search", 0.0, 0.8))?;
+    greedy::merge(landscape, &mut chain, input, greedy::saved_per_cost, &mut front, context)?;
+    chains::fill(landscape, effort, &mut front, &context.stage("search", 0.8, 1.0))?;
     // The front holds every state accepted on the way, so it begins with the best of them.
     let incumbent = front.states().next().unwrap_or(&merged).ranks.clone();
     let left = landscape.deadline.map(|d| d.saturating_duration_since(Instant::now()));

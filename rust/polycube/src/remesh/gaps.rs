@@ -1,0 +1,58 @@
+//! Where a shape is far from the mesh that stands for it.
+
+use super::hausdorff::triangles;
+use crate::error::Result;
+use crate::mesh::{Face, Mesh, Point};
+use crate::optimise::{Guide, Nearest};
+use crate::structure::Surface;
+use rayon::prelude::*;
+
+/// A place where a mesh cuts off or fills up what it should follow.
+pub(super) struct Gap {
+    /// The point of the shape there.
+    pub(super) at: Point,
+    /// How far it is from the mesh.
+    pub(super) distance: f64,
+    /// The face of the mesh nearest to it.
+    pub(super) face: Face,
+}
+
+/// The vertices of the shape's `surface` and the middles of its faces.
+pub(super) fn samples(surface: &Surface, shape: &[Point]) -> Vec<Point> {
+    let mut used = vec![false; shape.len()];
+    surface.faces().iter().flat_map(Face::vertices).for_each(|&v| used[v as usize] = true);
+    let vertices = shape.iter().zip(used).filter(|(_, used)| *used).map(|(p, _)| *p);
+    vertices.chain(surface.faces().iter().map(|f| middle(f, shape))).collect()
+}
+
+fn middle(face: &Face, points: &[Point]) -> Point {
+    let corners = face.vertices();
+    let sum: nalgebra::Vector3<f64> = corners.iter().map(|&v| points[v as usize].coords).sum();
+    Point::from(sum / corners.len() as f64)
+}
+
+/// Where samples of a shape are farther than `bound` from the surface of `mesh`, or the middles of its faces from the `shape`, the
+/// farthest first. O(n log n).
+///
+/// # Errors
+/// Those of [`boundary`](crate::mesh::Cells::boundary).
+pub(super) fn gaps(mesh: &Mesh, (shape, samples): (&dyn Guide, &[Point]), bound: f64) -> Result<Vec<Gap>> {
+    let faces = mesh.cells.boundary()?;
+    let pieces: Vec<_> = faces.iter().flat_map(|f| triangles(mesh, f).into_iter().map(move |t| (*f, t))).collect();
+    let index = Nearest::new(pieces.iter().map(|(_, t)| *t));
+    let gap = |at: &Point| {
+        let foot = index.foot(at)?;
+        let distance = (foot.point - at).norm();
+        (distance > bound).then_some(Gap { at: *at, distance, face: pieces[foot.index].0 })
+    };
+    let back = |face: &Face| {
+        let middle = middle(face, &mesh.points);
+        let at = shape.contact(&middle).point;
+        let distance = (middle - at).norm();
+        (distance > bound).then_some(Gap { at, distance, face: *face })
+    };
+    let mut found: Vec<Gap> = samples.par_iter().filter_map(gap).collect();
+    found.par_extend(faces.par_iter().filter_map(back));
+    found.sort_by(|a, b| b.distance.total_cmp(&a.distance));
+    Ok(found)
+}

@@ -1,0 +1,137 @@
+//! Vertices put where a mesh cuts off what sticks out of a shape.
+
+use super::gaps::{Gap, gaps};
+use super::improve::{Job, POOR};
+use super::report::cells_of;
+use crate::context::Context;
+use crate::error::Result;
+use crate::mesh::Point;
+use crate::optimise::{Freedom, Settings, scaled_jacobian};
+
+/// How often vertices are moved there.
+const ROUNDS: usize = 6;
+/// They are where the shape is farther from the mesh than this part of the bound: a little less, as optimising moves the others.
+const NEARER: f64 = 0.9;
+/// What may be left of the worst scaled Jacobian of all, where it is not [`POOR`],
+const KEPT: f64 = 0.8;
+/// and of that around a vertex when it is moved with care, before the others make way.
+const KEPT_AROUND: f64 = 0.3;
+/// A vertex reaches what is no farther than this part of the bound from what it slides on.
+const ON: f64 = 0.1;
+
+/// How vertices are moved.
+#[derive(Clone, Copy, PartialEq)]
+enum Pull {
+    /// All the way, whatever becomes of the hexahedra around: they are untangled.
+    Bold,
+    /// As far as the hexahedra around stay the right way round.
+    Careful,
+}
+
+impl Job<'_> {
+    /// Moves vertices to where the shape is farther than `bound` from the mesh, as far as no hexahedron gets bad, and holds them there
+    /// while the others make way; and again, until the shape is near everywhere. If that cannot be had, all stay where they
+    /// were. How far away the shape is then; 0 if it is near.
+    pub(super) fn reach(
+        &mut self,
+        samples: &[Point],
+        bound: f64,
+        settings: &Settings,
+        context: &Context,
+    ) -> Result<f64> {
+        let mut worst = self.worst();
+        if worst <= 0.0 {
+            return Ok(f64::INFINITY);
+        }
+        let around = self.around();
+        let start = self.hexes.mesh.points.clone();
+        let mut held = self.freedom.clone();
+        let mut pull = Pull::Bold;
+        let mut found = self.gaps(samples, bound, context)?;
+        let far = found.first().map_or(0.0, |g| g.distance);
+        for round in 0..ROUNDS {
+            let Some(farthest) = found.first().map(|g| g.distance).filter(|d| *d > bound) else { return Ok(0.0) };
+            let [from, to] = [round, round + 1].map(|r| r as f64 / ROUNDS as f64);
+            let before = (self.hexes.mesh.points.clone(), held.clone());
+            self.pull_all(&found, ON * bound, pull, &around, &mut held);
+            self.resize()?;
+            self.run(&held, settings, &context.stage("reach", from, to))?;
+            let left = self.gaps(samples, bound, context)?;
+            if left.first().is_none_or(|g| g.distance < farthest) && self.worst() > POOR.min(KEPT * worst) {
+                worst = worst.max(self.worst());
+                found = left;
+                continue;
+            }
+            (self.hexes.mesh.points, held) = before;
+            if pull == Pull::Careful {
+                break;
+            }
+            pull = Pull::Careful;
+        }
+        if found.first().is_none_or(|g| g.distance <= bound) {
+            return Ok(0.0);
+        }
+        self.hexes.mesh.points = start;
+        Ok(far)
+    }
+
+    fn gaps(&self, samples: &[Point], bound: f64, context: &Context) -> Result<Vec<Gap>> {
+        context.stage("reach", 0.0, 0.0).tick(0.0)?;
+        gaps(&self.hexes.mesh, (self.whole(), samples), NEARER * bound)
+    }
+
+    /// Pulls vertices to the gaps, the farthest first, and one only of a face and those around it.
+    fn pull_all(&mut self, found: &[Gap], tolerance: f64, pull: Pull, around: &[Vec<u32>], held: &mut [Freedom]) {
+        let mut taken = vec![false; held.len()];
+        for gap in found {
+            let corners = gap.face.vertices();
+            if !corners.iter().any(|&v| taken[v as usize]) && self.pull(gap, tolerance, pull, around, held) {
+                corners.iter().for_each(|&v| taken[v as usize] = true);
+            }
+        }
+    }
+
+    /// Moves one vertex of the face nearest to a gap towards it, if one slides through it and may, and holds it. Whether one did.
+    fn pull(&mut self, gap: &Gap, tolerance: f64, pull: Pull, around: &[Vec<u32>], held: &mut [Freedom]) -> bool {
+        let Gap { at, face, .. } = gap;
+        let mut corners: Vec<u32> = face.vertices().to_vec();
+        let distance = |v: u32| (self.hexes.mesh.points[v as usize] - at).norm();
+        corners.sort_by(|a, b| distance(*a).total_cmp(&distance(*b)));
+        let guide = |v: u32| match self.freedom[v as usize] {
+            Freedom::Guided(g) => {
+                Some(self.guides[g as usize]).filter(|g| (g.contact(at).point - at).norm() <= tolerance)
+            }
+            _ => None,
+        };
+        let Some((v, guide)) = corners.into_iter().find_map(|v| Some((v as usize, guide(v)?))) else { return false };
+        let (from, least) = (self.hexes.mesh.points[v], KEPT_AROUND * self.worst_of(&around[v]));
+        for part in [1.0, 0.5, 0.25] {
+            self.hexes.mesh.points[v] = guide.contact(&from.lerp(at, part)).point;
+            if pull == Pull::Bold || self.worst_of(&around[v]) > least {
+                held[v] = Freedom::Fixed;
+                return true;
+            }
+        }
+        self.hexes.mesh.points[v] = from;
+        false
+    }
+
+    /// The hexahedra around each vertex.
+    fn around(&self) -> Vec<Vec<u32>> {
+        let mut around = vec![Vec::new(); self.freedom.len()];
+        for (i, cell) in (0..).zip(cells_of(self.hexes)) {
+            cell.iter().for_each(|&v| around[v as usize].push(i));
+        }
+        around
+    }
+
+    fn worst_of(&self, cells: &[u32]) -> f64 {
+        let all = cells_of(self.hexes);
+        cells.iter().map(|&c| scaled_jacobian(&self.hexes.mesh.points, &all[c as usize])).fold(1.0, f64::min)
+    }
+
+    fn worst(&self) -> f64 {
+        let quality = |c| scaled_jacobian(&self.hexes.mesh.points, c);
+        cells_of(self.hexes).iter().map(quality).fold(1.0, f64::min)
+    }
+}

@@ -1,0 +1,128 @@
+//! What a mesh is made from: the polycube at the wanted size, the map of its surface, and a coarser mesh.
+
+use super::climb::{Rung, climb};
+use super::pipeline::RemeshOptions;
+use super::refine::Refined;
+use super::spacing::spaced;
+use super::warp::on_levels;
+use super::{Size, scale_for, untangle};
+use crate::align::Strategy;
+use crate::context::Context;
+use crate::error::Result;
+use crate::mesh::Mesh;
+use crate::simplify::{Input, Simplified};
+
+/// What a mesh is made from.
+pub(super) struct Start {
+    /// The polycube at the wanted size.
+    pub(super) simplified: Simplified,
+    /// The same with a better map of the surface, refined for meshing.
+    pub(super) map: Simplified,
+    /// The shape that goes with it.
+    pub(super) shape: Mesh,
+    /// A coarser mesh to start from.
+    pub(super) rung: Option<Rung>,
+    /// Whether the levels were spaced by the shape.
+    pub(super) spaced: bool,
+}
+
+impl Start {
+    /// Places the levels of `found` at the wanted size, untangles the map of the surface, and makes the coarse mesh.
+    ///
+    /// # Errors
+    /// Those of [`scale_for`] and [`optimise`](crate::optimise::optimise()).
+    pub(super) fn new(input: &Input, found: Simplified, options: &RemeshOptions, context: &Context) -> Result<Self> {
+        let mut simplified = sized(input, found, options, &context.stage("scale", 0.0, 0.2))?;
+        let shape = input.shape.unwrap_or(input.polycube);
+        let (mut map, shape) = improve_map(&mut simplified, shape, &context.stage("map", 0.2, 0.4))?;
+        let mut rung = None;
+        if !options.surface_only {
+            rung = climb(&map, &shape, options, &context.stage("map", 0.4, 1.0))?;
+        }
+        let flexible = rung.as_ref().filter(|_| is_flexible(options));
+        let is_spaced = flexible.is_some();
+        if let Some(rung) = flexible {
+            let levels = spaced(&map, rung, options.padding, context)?;
+            simplified = on_levels(&simplified, levels.clone());
+            map = on_levels(&map, levels);
+        }
+        Ok(Self { simplified, map, shape, rung, spaced: is_spaced })
+    }
+
+    /// The worst scaled Jacobian of the coarse mesh, if there is one.
+    pub(super) fn worst(&self) -> Option<f64> {
+        self.rung.as_ref().map(|r| r.worst)
+    }
+}
+
+/// Whether levels may lie where the shape wants them: not if the scale was given, the polycube is meshed as it is, or some
+/// facets have their places.
+pub(super) fn is_flexible(options: &RemeshOptions) -> bool {
+    let sized = matches!(options.size, Some(Size::Hexes(_) | Size::EdgeLength(_)));
+    sized && options.simplify.strategy != Strategy::Naive && options.simplify.guides == Default::default()
+}
+
+/// The simplified polycube at the wanted size.
+fn sized(input: &Input, found: Simplified, options: &RemeshOptions, context: &Context) -> Result<Simplified> {
+    let scale = match options.size {
+        Some(size) => scale_for(input, &found, size, options.padding, &context.stage("scale", 0.0, 0.3))?,
+        None if found.report.valid => return Ok(found),
+        None => found.report.scale,
+    };
+    let fitted = found.rescaled(input, scale, &context.stage("scale", 0.3, 0.6))?;
+    if fitted.report.valid {
+        return Ok(fitted);
+    }
+    in_order(input, found, options, scale, &context.stage("scale", 0.6, 1.0))
+}
+
+/// The levels of the input in their own order, where plain rounding broke the polycube.
+fn in_order(
+    input: &Input,
+    mut found: Simplified,
+    options: &RemeshOptions,
+    scale: f64,
+    context: &Context,
+) -> Result<Simplified> {
+    found.levels = ranks(&found);
+    found.report.strategy = Strategy::Paper;
+    let scale = match options.size {
+        Some(size) => scale_for(input, &found, size, options.padding, context)?,
+        None => scale,
+    };
+    let mut result = found.rescaled(input, scale, context)?;
+    result.report.strategy = options.simplify.strategy;
+    let note = "rounding to the lattice broke the polycube, so the levels were placed in the order they have";
+    result.report.notes.push(note.to_owned());
+    Ok(result)
+}
+
+/// The number of every level among those of its axis.
+fn ranks(found: &Simplified) -> Vec<i64> {
+    let placement = &found.input.placement;
+    let levels = &found.input.structure.levels;
+    let rank = |l: usize| {
+        let own = (0..levels.len()).filter(|&k| levels[k].axis == levels[l].axis).map(|k| placement[k]);
+        let mut below: Vec<f64> = own.filter(|x| *x < placement[l]).collect();
+        below.sort_by(f64::total_cmp);
+        below.dedup();
+        below.len() as i64
+    };
+    (0..levels.len()).map(rank).collect()
+}
+
+/// Untangles the map of the surface. What is returned has a better one, refined for meshing, and the shape to go with it.
+fn improve_map(simplified: &mut Simplified, shape: &Mesh, context: &Context) -> Result<(Simplified, Mesh)> {
+    let Simplified { input, polycube: Some(mesh), .. } = simplified else {
+        return Ok((simplified.clone(), shape.clone()));
+    };
+    let mut refined = Refined::new(input, &mesh.points, &shape.points)?;
+    untangle::surface(&mut refined, context)?;
+    if !mesh.cells.is_volume() {
+        mesh.points.iter_mut().zip(&refined.points).for_each(|(to, from)| *to = *from);
+    }
+    let [polycube, shape] = refined.meshes();
+    let mut map = simplified.clone();
+    (map.input, map.polycube) = (refined.polycube, Some(polycube));
+    Ok((map, shape))
+}
