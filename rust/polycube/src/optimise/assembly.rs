@@ -3,9 +3,9 @@
 //! Elements are cut into chunks of fixed size. Each chunk gathers its gradient over its own vertices, and then each vertex sums
 //! up its chunks in order.
 
-use super::elements::Elements;
+use super::elements::{Elements, Reference};
 use super::energy::Law;
-use super::quality::edges;
+use super::lanes::{LANES, Lanes, Vectors, three};
 use crate::context::Context;
 use crate::error::Result;
 use crate::mesh::Point;
@@ -107,8 +107,7 @@ impl<'a> Assembly<'a> {
                 // `min` passes over NaN, which is as bad as can be.
                 let quality = self.elements.quality(e, points);
                 worst = if quality.is_nan() { -1.0 } else { worst.min(quality) };
-                let det = (edges(points, self.elements.corners[e]) * self.elements.inverse[e]).determinant();
-                census.least = census.least.min(det);
+                census.least = census.least.min(self.elements.det(e, points));
             }
             census.inverted += usize::from(worst <= 0.0);
             census.worst = census.worst.min(worst);
@@ -138,21 +137,66 @@ fn chunk(index: u32, corners: &[[u32; 4]], local: &mut [(u32, u16)]) -> Chunk {
 }
 
 impl Chunk {
+    /// Sums up the energies, and the forces on the vertices unless the energy is infinite.
     fn evaluate(&mut self, elements: &Elements, first: usize, points: &[Point], law: &Law) {
         self.energy = 0.0;
         self.gradient.fill(Vector3::zeros());
-        for (i, corner) in self.corners.iter().enumerate() {
-            let [o, ends @ ..] = corner.map(usize::from);
-            let edges = edges(points, elements.corners[first + i]);
-            let (energy, slope) = law.value(elements.measure, &edges, &elements.inverse[first + i]);
-            let weight = elements.weights[first + i];
-            self.energy += weight * energy;
-            for (k, end) in ends.into_iter().enumerate() {
-                let force = slope.column(k) * weight;
-                self.gradient[end] += force;
-                self.gradient[o] -= force;
+        for (i, corners) in self.corners.chunks(LANES).enumerate() {
+            let side = Side::new(elements, first + i * LANES, corners.len());
+            let Some((energy, slopes)) = law.value(elements.measure, &side.edges(points), &side.reference()) else {
+                self.energy = f64::INFINITY;
+                return;
+            };
+            let weight = side.weight();
+            (0..corners.len()).for_each(|lane| self.energy += weight.0[lane] * energy.0[lane]);
+            let forces = three(|k| three(|axis| slopes[k][axis] * weight));
+            for (lane, &[o, a, b, c]) in corners.iter().enumerate() {
+                let on = three(|k| Vector3::from(three(|axis| forces[k][axis].0[lane])));
+                self.gradient[usize::from(a)] += on[0];
+                self.gradient[usize::from(b)] += on[1];
+                self.gradient[usize::from(c)] += on[2];
+                self.gradient[usize::from(o)] -= on[0] + on[1] + on[2];
             }
         }
+    }
+}
+
+/// Elements side by side; where there are too few, the last one fills up.
+struct Side<'a> {
+    elements: &'a Elements,
+    at: [usize; LANES],
+}
+
+impl<'a> Side<'a> {
+    #[inline(always)]
+    fn new(elements: &'a Elements, first: usize, count: usize) -> Self {
+        Self { elements, at: std::array::from_fn(|lane| first + lane.min(count - 1)) }
+    }
+
+    #[inline(always)]
+    fn edges(&self, points: &[Point]) -> [Vectors; 3] {
+        let point = |k: usize| -> Vectors {
+            let at = |lane: usize| &points[self.elements.corners[self.at[lane]][k] as usize];
+            three(|axis| Lanes::each(|lane| at(lane)[axis]))
+        };
+        let origin = point(0);
+        three(|k| {
+            let end = point(k + 1);
+            three(|axis| end[axis] - origin[axis])
+        })
+    }
+
+    #[inline(always)]
+    fn reference(&self) -> Reference<Lanes> {
+        let of = |lane: usize| &self.elements.references[self.at[lane]];
+        let entry = |k: usize| Lanes::each(|lane| of(lane).metric[k]);
+        let metric = [entry(0), entry(1), entry(2), entry(3), entry(4), entry(5)];
+        Reference { metric, det: Lanes::each(|lane| of(lane).det) }
+    }
+
+    #[inline(always)]
+    fn weight(&self) -> Lanes {
+        Lanes::each(|lane| self.elements.weights[self.at[lane]])
     }
 }
 

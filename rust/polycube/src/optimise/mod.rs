@@ -18,6 +18,7 @@ mod energy;
 mod freedom;
 mod guide;
 mod improve;
+mod lanes;
 mod lbfgs;
 mod nearest;
 mod polish;
@@ -185,9 +186,8 @@ fn check(points: &[Point], elements: &Elements, freedom: &[Freedom], settings: &
 
 /// The factor by which the references must grow to have the mean volume of the elements, which a fixed boundary keeps.
 fn mean_size(elements: &Elements, points: &[Point]) -> f64 {
-    let det = |i: usize| (quality::edges(points, elements.corners[i]) * elements.inverse[i]).determinant();
     let sum = |each: &dyn Fn(f64) -> f64| -> f64 {
-        (0..elements.len()).map(|i| elements.weights[i] * each(det(i))).sum::<f64>()
+        (0..elements.len()).map(|i| elements.weights[i] * each(elements.det(i, points))).sum::<f64>()
     };
     let weight: f64 = elements.weights.iter().sum();
     let (mean, absolute) = (sum(&|d| d) / weight, sum(&f64::abs) / weight);

@@ -96,12 +96,10 @@ impl<'a> Problem<'a> {
 
 fn scales(elements: &Elements, count: usize) -> Vec<f64> {
     let mut diagonal = vec![0.0; count];
-    for ((corner, inverse), weight) in elements.corners.iter().zip(&elements.inverse).zip(&elements.weights) {
-        let origin = inverse.row_sum();
-        diagonal[corner[0] as usize] += weight * origin.norm_squared();
-        for k in 0..3 {
-            diagonal[corner[k + 1] as usize] += weight * inverse.row(k).norm_squared();
-        }
+    for ((corner, reference), weight) in elements.corners.iter().zip(&elements.references).zip(&elements.weights) {
+        let [xx, yy, zz, yz, xz, xy] = reference.metric;
+        let squares = [xx + yy + zz + 2.0 * (yz + xz + xy), xx, yy, zz];
+        corner.iter().zip(squares).for_each(|(v, square)| diagonal[*v as usize] += weight * square);
     }
     diagonal.into_iter().map(|d: f64| if d > 0.0 { 1.0 / d } else { 0.0 }).collect()
 }
