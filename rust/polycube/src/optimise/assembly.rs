@@ -11,6 +11,7 @@ use crate::error::Result;
 use crate::mesh::Point;
 use nalgebra::Vector3;
 use rayon::prelude::*;
+use std::sync::atomic::{AtomicBool, Ordering::Relaxed};
 
 /// Elements per chunk: a fraction of a millisecond's work, with local gradients in the first cache.
 const CHUNK: usize = 1024;
@@ -55,7 +56,7 @@ impl<'a> Assembly<'a> {
         Self { elements, chunks, starts, slots }
     }
 
-    /// The energy at `points`, and its gradient.
+    /// The energy at `points`, and its gradient; 0 where the energy is infinite.
     ///
     /// # Errors
     /// [`ErrorKind::Cancelled`](crate::ErrorKind::Cancelled), within a chunk's time.
@@ -67,17 +68,23 @@ impl<'a> Assembly<'a> {
         context: &Context,
     ) -> Result<f64> {
         let elements = self.elements;
+        let infinite = AtomicBool::new(false);
         self.chunks.par_iter_mut().enumerate().for_each(|(i, chunk)| {
-            if !context.is_cancelled() {
-                chunk.evaluate(elements, i * CHUNK, points, law);
+            if !(infinite.load(Relaxed) || context.is_cancelled()) && !chunk.evaluate(elements, i * CHUNK, points, law)
+            {
+                infinite.store(true, Relaxed);
             }
         });
+        context.tick(0.0)?;
+        if infinite.into_inner() {
+            gradient.fill(Vector3::zeros());
+            return Ok(f64::INFINITY);
+        }
         let (chunks, starts, slots) = (&self.chunks, &self.starts, &self.slots);
         gradient.par_iter_mut().enumerate().with_min_len(1024).for_each(|(v, g)| {
             let range = starts[v] as usize..starts[v + 1] as usize;
             *g = slots[range].iter().map(|&(c, i)| chunks[c as usize].gradient[usize::from(i)]).sum();
         });
-        context.tick(0.0)?;
         Ok(self.chunks.iter().map(|c| c.energy).sum())
     }
 
@@ -137,15 +144,14 @@ fn chunk(index: u32, corners: &[[u32; 4]], local: &mut [(u32, u16)]) -> Chunk {
 }
 
 impl Chunk {
-    /// Sums up the energies, and the forces on the vertices unless the energy is infinite.
-    fn evaluate(&mut self, elements: &Elements, first: usize, points: &[Point], law: &Law) {
+    /// Sums up the energies and the forces on the vertices. Returns whether the energy is finite; if not, there is no sum.
+    fn evaluate(&mut self, elements: &Elements, first: usize, points: &[Point], law: &Law) -> bool {
         self.energy = 0.0;
         self.gradient.fill(Vector3::zeros());
         for (i, corners) in self.corners.chunks(LANES).enumerate() {
             let side = Side::new(elements, first + i * LANES, corners.len());
             let Some((energy, slopes)) = law.value(elements.measure, &side.edges(points), &side.reference()) else {
-                self.energy = f64::INFINITY;
-                return;
+                return false;
             };
             let weight = side.weight();
             (0..corners.len()).for_each(|lane| self.energy += weight.0[lane] * energy.0[lane]);
@@ -158,6 +164,7 @@ impl Chunk {
                 self.gradient[usize::from(o)] -= on[0] + on[1] + on[2];
             }
         }
+        true
     }
 }
 

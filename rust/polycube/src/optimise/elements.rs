@@ -4,6 +4,7 @@ use super::quality::{HEX_CORNERS, edges};
 use crate::error::{Error, ErrorKind, Place, Result};
 use crate::mesh::Point;
 use nalgebra::{Matrix3, Vector3};
+use rayon::prelude::*;
 
 /// How the quality of an element is measured; always in −1..1, positive where it is not inverted.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -58,6 +59,9 @@ pub struct Elements {
     pub(super) per_cell: usize,
     pub(super) measure: Measure,
 }
+
+/// Elements that a thread takes at least.
+const LEAST_SHARE: usize = 4096;
 
 /// A rest shape with a lower mean ratio than this is no example to follow.
 const WORST_REST: f64 = 0.02;
@@ -158,6 +162,11 @@ impl Elements {
         }
     }
 
+    /// `f` of every element, on all threads.
+    pub(super) fn each<T: Send>(&self, f: impl Fn(usize) -> T + Sync + Send) -> Vec<T> {
+        (0..self.len()).into_par_iter().with_min_len(LEAST_SHARE).map(f).collect()
+    }
+
     /// `det J`.
     pub(super) fn det(&self, i: usize, points: &[Point]) -> f64 {
         edges(points, self.corners[i]).determinant() * self.references[i].det
@@ -232,7 +241,7 @@ fn number_edges(hexes: &[[u32; 8]], points: &[Point]) -> (Vec<[u32; 4]>, Vec<f64
     let key = |hex: &[u32; 8], [a, b]: [usize; 2]| (hex[a].min(hex[b]), hex[a].max(hex[b]));
     let keys = hexes.iter().flat_map(|hex| PARALLEL.iter().map(move |set| set.map(|e| key(hex, e))));
     let mut sorted: Vec<(u32, u32)> = keys.clone().flatten().collect();
-    sorted.sort_unstable();
+    sorted.par_sort_unstable();
     sorted.dedup();
     let id = |key: (u32, u32)| sorted.partition_point(|k| *k < key) as u32;
     let lengths = sorted.iter().map(|&(a, b)| (points[a as usize] - points[b as usize]).norm()).collect();
