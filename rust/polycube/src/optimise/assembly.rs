@@ -70,8 +70,8 @@ impl<'a> Assembly<'a> {
         let elements = self.elements;
         let infinite = AtomicBool::new(false);
         self.chunks.par_iter_mut().enumerate().for_each(|(i, chunk)| {
-            if !(infinite.load(Relaxed) || context.is_cancelled()) && !chunk.evaluate(elements, i * CHUNK, points, law)
-            {
+            let over = infinite.load(Relaxed) || context.is_cancelled();
+            if !(over || chunk.evaluate(elements, i * CHUNK, points, law)) {
                 infinite.store(true, Relaxed);
             }
         });

@@ -129,7 +129,9 @@ pub fn optimise(
     let mut elements = elements.clone();
     let size = mean_size(&elements, points);
     elements.enlarge(size);
+    context.tick(0.0)?;
     let mut problem = Problem::new(&elements, constraints, points.len());
+    context.tick(0.0)?;
     let before = problem.assembly.census(points);
     let mut moved = points.clone();
     run(&mut problem, &mut moved, settings, context)?;

@@ -36,8 +36,9 @@ pub(super) fn improve(
     settings: &Settings,
     context: &Context,
 ) -> Result<usize> {
-    let slides = Slides::new(&map.input, shape)?;
+    let slides = Slides::new(&map.input, shape, &context.stage("untangle", 0.0, 0.0))?;
     let elements = Elements::boxes_like(cells_of(hexes), &hexes.mesh.points, SMOOTHING)?;
+    context.stage("untangle", 0.0, 0.0).tick(0.0)?;
     let freedom = slides.freedoms(&hexes.sites, Hold::Corners);
     let mut job = Job { elements, guides: slides.guides(), slides: &slides, hexes, freedom, released: 0 };
     job.untangle(settings, &context.stage("untangle", 0.0, 0.4))?;
