@@ -3,14 +3,15 @@
 //! Elements are cut into chunks of fixed size. Each chunk gathers its gradient over its own vertices, and then each vertex sums
 //! up its chunks in order.
 
-use super::elements::Elements;
+use super::elements::{Elements, Reference};
 use super::energy::Law;
-use super::quality::edges;
+use super::lanes::{LANES, Lanes, Vectors, three};
 use crate::context::Context;
 use crate::error::Result;
 use crate::mesh::Point;
 use nalgebra::Vector3;
 use rayon::prelude::*;
+use std::sync::atomic::{AtomicBool, Ordering::Relaxed};
 
 /// Elements per chunk: a fraction of a millisecond's work, with local gradients in the first cache.
 const CHUNK: usize = 1024;
@@ -55,7 +56,7 @@ impl<'a> Assembly<'a> {
         Self { elements, chunks, starts, slots }
     }
 
-    /// The energy at `points`, and its gradient.
+    /// The energy at `points`, and its gradient; 0 where the energy is infinite.
     ///
     /// # Errors
     /// [`ErrorKind::Cancelled`](crate::ErrorKind::Cancelled), within a chunk's time.
@@ -67,17 +68,23 @@ impl<'a> Assembly<'a> {
         context: &Context,
     ) -> Result<f64> {
         let elements = self.elements;
+        let infinite = AtomicBool::new(false);
         self.chunks.par_iter_mut().enumerate().for_each(|(i, chunk)| {
-            if !context.is_cancelled() {
-                chunk.evaluate(elements, i * CHUNK, points, law);
+            let over = infinite.load(Relaxed) || context.is_cancelled();
+            if !(over || chunk.evaluate(elements, i * CHUNK, points, law)) {
+                infinite.store(true, Relaxed);
             }
         });
+        context.tick(0.0)?;
+        if infinite.into_inner() {
+            gradient.fill(Vector3::zeros());
+            return Ok(f64::INFINITY);
+        }
         let (chunks, starts, slots) = (&self.chunks, &self.starts, &self.slots);
         gradient.par_iter_mut().enumerate().with_min_len(1024).for_each(|(v, g)| {
             let range = starts[v] as usize..starts[v + 1] as usize;
             *g = slots[range].iter().map(|&(c, i)| chunks[c as usize].gradient[usize::from(i)]).sum();
         });
-        context.tick(0.0)?;
         Ok(self.chunks.iter().map(|c| c.energy).sum())
     }
 
@@ -107,8 +114,7 @@ impl<'a> Assembly<'a> {
                 // `min` passes over NaN, which is as bad as can be.
                 let quality = self.elements.quality(e, points);
                 worst = if quality.is_nan() { -1.0 } else { worst.min(quality) };
-                let det = (edges(points, self.elements.corners[e]) * self.elements.inverse[e]).determinant();
-                census.least = census.least.min(det);
+                census.least = census.least.min(self.elements.det(e, points));
             }
             census.inverted += usize::from(worst <= 0.0);
             census.worst = census.worst.min(worst);
@@ -138,21 +144,66 @@ fn chunk(index: u32, corners: &[[u32; 4]], local: &mut [(u32, u16)]) -> Chunk {
 }
 
 impl Chunk {
-    fn evaluate(&mut self, elements: &Elements, first: usize, points: &[Point], law: &Law) {
+    /// Sums up the energies and the forces on the vertices. Returns whether the energy is finite; if not, there is no sum.
+    fn evaluate(&mut self, elements: &Elements, first: usize, points: &[Point], law: &Law) -> bool {
         self.energy = 0.0;
         self.gradient.fill(Vector3::zeros());
-        for (i, corner) in self.corners.iter().enumerate() {
-            let [o, ends @ ..] = corner.map(usize::from);
-            let edges = edges(points, elements.corners[first + i]);
-            let (energy, slope) = law.value(elements.measure, &edges, &elements.inverse[first + i]);
-            let weight = elements.weights[first + i];
-            self.energy += weight * energy;
-            for (k, end) in ends.into_iter().enumerate() {
-                let force = slope.column(k) * weight;
-                self.gradient[end] += force;
-                self.gradient[o] -= force;
+        for (i, corners) in self.corners.chunks(LANES).enumerate() {
+            let side = Side::new(elements, first + i * LANES, corners.len());
+            let Some((energy, slopes)) = law.value(elements.measure, &side.edges(points), &side.reference()) else {
+                return false;
+            };
+            let weight = side.weight();
+            (0..corners.len()).for_each(|lane| self.energy += weight.0[lane] * energy.0[lane]);
+            let forces = three(|k| three(|axis| slopes[k][axis] * weight));
+            for (lane, &[o, a, b, c]) in corners.iter().enumerate() {
+                let on = three(|k| Vector3::from(three(|axis| forces[k][axis].0[lane])));
+                self.gradient[usize::from(a)] += on[0];
+                self.gradient[usize::from(b)] += on[1];
+                self.gradient[usize::from(c)] += on[2];
+                self.gradient[usize::from(o)] -= on[0] + on[1] + on[2];
             }
         }
+        true
+    }
+}
+
+/// Elements side by side; where there are too few, the last one fills up.
+struct Side<'a> {
+    elements: &'a Elements,
+    at: [usize; LANES],
+}
+
+impl<'a> Side<'a> {
+    #[inline(always)]
+    fn new(elements: &'a Elements, first: usize, count: usize) -> Self {
+        Self { elements, at: std::array::from_fn(|lane| first + lane.min(count - 1)) }
+    }
+
+    #[inline(always)]
+    fn edges(&self, points: &[Point]) -> [Vectors; 3] {
+        let point = |k: usize| -> Vectors {
+            let at = |lane: usize| &points[self.elements.corners[self.at[lane]][k] as usize];
+            three(|axis| Lanes::each(|lane| at(lane)[axis]))
+        };
+        let origin = point(0);
+        three(|k| {
+            let end = point(k + 1);
+            three(|axis| end[axis] - origin[axis])
+        })
+    }
+
+    #[inline(always)]
+    fn reference(&self) -> Reference<Lanes> {
+        let of = |lane: usize| &self.elements.references[self.at[lane]];
+        let entry = |k: usize| Lanes::each(|lane| of(lane).metric[k]);
+        let metric = [entry(0), entry(1), entry(2), entry(3), entry(4), entry(5)];
+        Reference { metric, det: Lanes::each(|lane| of(lane).det) }
+    }
+
+    #[inline(always)]
+    fn weight(&self) -> Lanes {
+        Lanes::each(|lane| self.elements.weights[self.at[lane]])
     }
 }
 

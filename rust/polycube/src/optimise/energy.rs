@@ -1,10 +1,14 @@
-//! The energy of one element and its derivative.
+//! The energy of elements and its derivative.
+//!
+//! All of it depends on the edges `E` of an element through `tr(Jᵀ J)`, `det J` and the lengths of the edges, where `J = E R` for
+//! the inverse `R` of the edges it should have. So the derivative is a sum of three fields: `E R Rᵀ`, the cofactors of `E`,
+//! and the edges.
 //!
 //! Garanzha, Kaporin, Kudryavtseva, Protais, Ray, Sokolov: "Foldover-free maps in 50 lines of code", ACM TOG 2021.
 
-use super::elements::Measure;
-use super::quality::cofactors;
-use nalgebra::{Matrix3, Vector3};
+use super::elements::{Measure, Reference};
+use super::lanes::{Lanes, Vectors, combine, cross, dot, three};
+use std::ops::Add;
 
 /// What is minimised.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -18,76 +22,179 @@ pub(super) enum Law {
     Barrier { theta: f64, average: f64, strength: f64, floor: f64, squarings: u32 },
 }
 
-impl Law {
-    /// The energy of an element with the present `edges` and the `inverse` of its reference, and its
-    /// derivative by the edges. Infinite with a derivative of 0 outside the domain.
-    pub(super) fn value(&self, measure: Measure, edges: &Matrix3<f64>, inverse: &Matrix3<f64>) -> (f64, Matrix3<f64>) {
-        let j = edges * inverse;
-        match *self {
-            Self::Regularised { theta, epsilon } => {
-                let (energy, by_j) = distortion(&j, &cofactors(&j), theta, epsilon);
-                (energy, by_j * inverse.transpose())
-            }
-            Self::Barrier { theta, average, strength, floor, squarings } => {
-                let cofactors = cofactors(&j);
-                if j.column(0).dot(&cofactors.column(0)) <= f64::MIN_POSITIVE {
-                    return (f64::INFINITY, Matrix3::zeros());
-                }
-                let (energy, by_j) = distortion(&j, &cofactors, theta, 0.0);
-                let energy = energy - (3.0 - theta);
-                let (bad, slope) = match measure {
-                    Measure::ScaledJacobian => skewness(edges),
-                    Measure::MeanRatio => stretch(&j, inverse),
-                };
-                let (power, growth) = raise(floor * bad, squarings);
-                let least = raise(floor, squarings).0;
-                let badness = average * (bad - 1.0) + strength * (power - least);
-                (energy + badness, by_j * inverse.transpose() + slope * (average + strength * growth * floor))
-            }
+/// An energy and its derivatives by `tr(Jᵀ J)`, by `det J`, and by half the square of each edge's length.
+struct Parts {
+    energy: Lanes,
+    by_trace: Lanes,
+    by_det: Lanes,
+    by_squares: Vectors,
+}
+
+impl Add for Parts {
+    type Output = Self;
+
+    #[inline(always)]
+    fn add(self, other: Self) -> Self {
+        Self {
+            energy: self.energy + other.energy,
+            by_trace: self.by_trace + other.by_trace,
+            by_det: self.by_det + other.by_det,
+            by_squares: three(|k| self.by_squares[k] + other.by_squares[k]),
         }
     }
 }
 
-/// `x^(2^n)` and its derivative, by squaring: the same on every machine.
-fn raise(x: f64, squarings: u32) -> (f64, f64) {
-    let power = (0..squarings).fold(x, |p, _| p * p);
-    (power, if x > 0.0 { f64::from(1_u32 << squarings) * power / x } else { 0.0 })
+impl Law {
+    /// The energies of elements with these `edges`, and their derivatives by the edges; nothing when one of them is infinite.
+    #[inline(always)]
+    pub(super) fn value(
+        &self,
+        measure: Measure,
+        edges: &[Vectors; 3],
+        reference: &Reference<Lanes>,
+    ) -> Option<(Lanes, [Vectors; 3])> {
+        let [xx, yy, zz, yz, xz, xy] = reference.metric;
+        let metric = [[xx, xy, xz], [xy, yy, yz], [xz, yz, zz]];
+        let pulls = three(|k| combine(edges, metric[k]));
+        let cofactors = three(|k| cross(edges[(k + 1) % 3], edges[(k + 2) % 3]));
+        let det = dot(edges[0], cofactors[0]) * reference.det;
+        let trace = dot(pulls[0], edges[0]) + dot(pulls[1], edges[1]) + dot(pulls[2], edges[2]);
+        let parts = match *self {
+            Self::Regularised { theta, epsilon } => regularised(trace, det, theta, epsilon),
+            Self::Barrier { theta, average, strength, floor, squarings } => {
+                if !det.above(f64::MIN_POSITIVE) {
+                    return None;
+                }
+                let raised = Raised { trace, inverse: det.inverse(), shrink: shrink(det) };
+                let penalty = Penalty { average, strength, floor, squarings };
+                raised.distortion(det, theta)
+                    + match measure {
+                        Measure::ScaledJacobian => raised.skewness(edges, reference.det, &penalty),
+                        Measure::MeanRatio => raised.stretch(&penalty),
+                    }
+            }
+        };
+        let by_cofactors = parts.by_det * reference.det;
+        let slopes = three(|k| {
+            combine(&[pulls[k], cofactors[k], edges[k]], [parts.by_trace * 2.0, by_cofactors, parts.by_squares[k]])
+        });
+        Some((parts.energy, slopes))
+    }
 }
 
-/// `(1−θ) f + θ g` and its derivative by `J`.
-fn distortion(j: &Matrix3<f64>, cofactors: &Matrix3<f64>, theta: f64, epsilon: f64) -> (f64, Matrix3<f64>) {
-    let det = j.column(0).dot(&cofactors.column(0));
-    let root = (epsilon * epsilon + det * det).sqrt();
+/// `χ^(−2/3)`.
+#[inline(always)]
+fn shrink(chi: Lanes) -> Lanes {
+    let root = chi.inverse_cbrt();
+    root * root
+}
+
+/// `(1−θ) f + θ g`.
+#[inline(always)]
+fn regularised(trace: Lanes, det: Lanes, theta: f64, epsilon: f64) -> Parts {
+    let root = (det * det + Lanes::all(epsilon * epsilon)).sqrt();
     // Written so that nothing cancels on either side.
-    let chi = if det > 0.0 { 0.5 * (det + root) } else { 0.5 * epsilon * epsilon / (root - det) };
-    let cube = libm::cbrt(chi);
-    let square = cube * cube;
-    let f = j.norm_squared() / square;
-    let g = (det * det + 1.0) / chi;
+    let large = (root + det.map(f64::abs)) * 0.5;
+    let small = large.inverse() * (0.25 * epsilon * epsilon);
+    let chi = Lanes::each(|i| if det.0[i] > 0.0 { large.0[i] } else { small.0[i] });
+    let (shrink, inverse) = (shrink(chi), chi.inverse());
+    let f = trace * shrink;
+    let g = (det * det + Lanes::all(1.0)) * inverse;
     // χ' = χ / √(ε² + det²).
-    let by_det = theta * (2.0 * det / chi - g / root) - (1.0 - theta) * f / (1.5 * root);
-    ((1.0 - theta) * f + theta * g, j * (2.0 * (1.0 - theta) / square) + cofactors * by_det)
+    let falling = (g * theta + f * ((1.0 - theta) / 1.5)) * root.inverse();
+    Parts {
+        energy: f * (1.0 - theta) + g * theta,
+        by_trace: shrink * (1.0 - theta),
+        by_det: det * inverse * (2.0 * theta) - falling,
+        by_squares: [Lanes::all(0.0); 3],
+    }
 }
 
-/// One over the scaled Jacobian, and its derivative by the edges.
-fn skewness(edges: &Matrix3<f64>) -> (f64, Matrix3<f64>) {
-    let cofactors = cofactors(edges);
-    let det = edges.column(0).dot(&cofactors.column(0));
-    let squares = [0, 1, 2].map(|i| edges.column(i).norm_squared());
-    let bad = squares.iter().map(|s| s.sqrt()).product::<f64>() / det;
-    let slope = |i: usize| -> Vector3<f64> { (edges.column(i) / squares[i] - cofactors.column(i) / det) * bad };
-    (bad, Matrix3::from_columns(&[slope(0), slope(1), slope(2)]))
+/// What the parts of the barrier share.
+struct Raised {
+    trace: Lanes,
+    /// `1 / det`.
+    inverse: Lanes,
+    /// `det^(−2/3)`.
+    shrink: Lanes,
 }
 
-/// One over the mean ratio, and its derivative by the edges.
-fn stretch(j: &Matrix3<f64>, inverse: &Matrix3<f64>) -> (f64, Matrix3<f64>) {
-    let (f, by_j) = distortion(j, &cofactors(j), 0.0, 0.0);
-    (f / 3.0, by_j * inverse.transpose() / 3.0)
+impl Raised {
+    /// `(1−θ) f + θ g` for `χ = det`, less its least value.
+    #[inline(always)]
+    fn distortion(&self, det: Lanes, theta: f64) -> Parts {
+        let (f, g) = (self.trace * self.shrink, det + self.inverse);
+        Parts {
+            energy: f * (1.0 - theta) + g * theta - Lanes::all(3.0 - theta),
+            by_trace: self.shrink * (1.0 - theta),
+            by_det: Lanes::all(2.0 * theta) - (g * theta + f * ((1.0 - theta) / 1.5)) * self.inverse,
+            by_squares: [Lanes::all(0.0); 3],
+        }
+    }
+
+    /// The penalty on one over the scaled Jacobian; `scale` is `det R`.
+    #[inline(always)]
+    fn skewness(&self, edges: &[Vectors; 3], scale: Lanes, penalty: &Penalty) -> Parts {
+        let squares = three(|k| dot(edges[k], edges[k]));
+        let product = squares[0] * squares[1] * squares[2];
+        let bad = product.sqrt() * self.inverse * scale;
+        let (energy, slope) = penalty.value(bad);
+        let weight = slope * bad;
+        let share = weight * product.inverse();
+        let by_squares = three(|k| squares[(k + 1) % 3] * squares[(k + 2) % 3] * share);
+        Parts { energy, by_trace: Lanes::all(0.0), by_det: weight * self.inverse * -1.0, by_squares }
+    }
+
+    /// The penalty on one over the mean ratio.
+    #[inline(always)]
+    fn stretch(&self, penalty: &Penalty) -> Parts {
+        let bad = self.trace * self.shrink * (1.0 / 3.0);
+        let (energy, slope) = penalty.value(bad);
+        Parts {
+            energy,
+            by_trace: slope * self.shrink * (1.0 / 3.0),
+            by_det: slope * bad * self.inverse * (-1.0 / 1.5),
+            by_squares: [Lanes::all(0.0); 3],
+        }
+    }
+}
+
+/// What one over the quality costs, see [`Law::Barrier`].
+struct Penalty {
+    average: f64,
+    strength: f64,
+    floor: f64,
+    squarings: u32,
+}
+
+impl Penalty {
+    /// The penalty less its least value, and its derivative.
+    #[inline(always)]
+    fn value(&self, bad: Lanes) -> (Lanes, Lanes) {
+        let (power, growth) = raise(bad * self.floor, self.squarings);
+        let (least, _) = raise(Lanes::all(self.floor), self.squarings);
+        let energy = (bad - Lanes::all(1.0)) * self.average + (power - least) * self.strength;
+        (energy, growth * (self.strength * self.floor) + Lanes::all(self.average))
+    }
+}
+
+/// `x^(2^n)` and its derivative, by squaring: the same on every machine.
+#[inline(always)]
+fn raise(x: Lanes, squarings: u32) -> (Lanes, Lanes) {
+    let (mut power, mut growth) = (x, Lanes::all(1.0));
+    for _ in 0..squarings {
+        growth = growth * power * 2.0;
+        power = power * power;
+    }
+    (power, growth)
 }
 
 #[cfg(test)]
 mod tests {
+    use super::super::lanes::LANES;
     use super::*;
+    use nalgebra::Matrix3;
+    use proptest::array::{uniform3, uniform9};
     use proptest::prelude::*;
 
     const LAWS: [Law; 4] = [
@@ -97,17 +204,30 @@ mod tests {
         Law::Barrier { theta: 0.5, average: 0.0, strength: 0.0, floor: 0.9, squarings: 0 },
     ];
 
+    /// Energy and derivative of elements that are all alike, in the first lane.
+    fn value(law: &Law, measure: Measure, edges: &Matrix3<f64>, rest: &Matrix3<f64>) -> (f64, Matrix3<f64>) {
+        let Reference { metric, det } = Reference::new(rest);
+        let reference = Reference { metric: metric.map(Lanes::all), det: Lanes::all(det) };
+        let columns = [0, 1, 2].map(|k| [0, 1, 2].map(|axis| Lanes::all(edges[(axis, k)])));
+        let Some((energy, slope)) = law.value(measure, &columns, &reference) else {
+            return (f64::INFINITY, Matrix3::zeros());
+        };
+        assert_eq!(energy, Lanes([energy.0[0]; LANES]));
+        (energy.0[0], Matrix3::from_fn(|axis, k| slope[k][axis].0[0]))
+    }
+
     proptest! {
         #[test]
-        fn derivatives_are_those_of_the_energy(at in prop::array::uniform9(-1.0..1.0_f64), r in prop::array::uniform3(0.5..2.0_f64)) {
-            let (edges, inverse) = (Matrix3::from_row_slice(&at) + Matrix3::identity(), Matrix3::from_diagonal(&r.into()));
+        fn derivatives_are_those_of_the_energy(at in uniform9(-1.0..1.0_f64), r in uniform3(0.5..2.0_f64), shear in uniform3(-0.5..0.5_f64)) {
+            let edges = Matrix3::from_row_slice(&at) + Matrix3::identity();
+            let rest = Matrix3::new(r[0], shear[0], shear[1], 0.0, r[1], shear[2], 0.0, 0.0, r[2]);
             let h = 1e-6;
             for (law, measure) in LAWS.into_iter().flat_map(|l| [(l, Measure::ScaledJacobian), (l, Measure::MeanRatio)]) {
                 // Within reach of the barrier differences say nothing.
                 prop_assume!(matches!(law, Law::Regularised { .. }) || edges.determinant() > 0.1);
-                let (_, slope) = law.value(measure, &edges, &inverse);
+                let (_, slope) = value(&law, measure, &edges, &rest);
                 for i in 0..9 {
-                    let moved = |by: f64| { let mut e = edges; e[i] += by; law.value(measure, &e, &inverse).0 };
+                    let moved = |by: f64| { let mut e = edges; e[i] += by; value(&law, measure, &e, &rest).0 };
                     let difference = (moved(h) - moved(-h)) / (2.0 * h);
                     let tolerance = 1e-5 * (1.0 + slope.norm() + moved(0.0));
                     prop_assert!((difference - slope[i]).abs() < tolerance, "{law:?} {measure:?} {difference} {}", slope[i]);
@@ -120,9 +240,9 @@ mod tests {
     fn right_boxes_and_similar_maps_are_at_rest() {
         let law = Law::Barrier { theta: 0.5, average: 1.0, strength: 1.0, floor: 1.0, squarings: 2 };
         for measure in [Measure::ScaledJacobian, Measure::MeanRatio] {
-            let (energy, slope) = law.value(measure, &Matrix3::identity(), &Matrix3::identity());
+            let (energy, slope) = value(&law, measure, &Matrix3::identity(), &Matrix3::identity());
             assert!(energy.abs() < 1e-12 && slope.norm() < 1e-12);
-            assert_eq!(law.value(measure, &-Matrix3::identity(), &Matrix3::identity()).0, f64::INFINITY);
+            assert_eq!(value(&law, measure, &-Matrix3::identity(), &Matrix3::identity()).0, f64::INFINITY);
         }
     }
 }

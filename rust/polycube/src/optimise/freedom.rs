@@ -84,7 +84,8 @@ impl<'a> Constraints<'a> {
 
     /// Leaves of each vertex's gradient what it may follow.
     pub(super) fn restrict(&self, gradient: &mut [Vector3<f64>]) {
-        gradient.iter_mut().enumerate().for_each(|(v, g)| *g = self.allowed(v, *g));
+        let each = gradient.par_iter_mut().enumerate().with_min_len(4096);
+        each.for_each(|(v, g)| *g = self.allowed(v, *g));
     }
 
     /// Whether a vertex can move at all.

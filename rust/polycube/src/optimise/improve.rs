@@ -19,31 +19,44 @@ const SQUARINGS: u32 = 6;
 const AVERAGE: f64 = 0.5;
 
 /// How good a state is.
-fn score(census: &Census) -> f64 {
+pub(super) fn score(census: &Census) -> f64 {
     census.worst + AVERAGE * census.average
 }
 
-/// Minimises the energy with a growing penalty on the elements near the worst, and keeps the best state seen. Its
-/// worst quality is never below that of the input, which must be on the guides with no element inverted.
+/// The states that rounds of improvement led to.
+pub(super) struct Improved {
+    /// The best one after a round.
+    pub(super) best: Vec<Point>,
+    /// The best one whose worst quality is not below that of the input.
+    pub(super) safe: Vec<Point>,
+}
+
+/// Minimises the energy with a growing penalty on the elements near the worst, from `points`, which must be on the guides with
+/// no element inverted; none is afterwards.
 pub(super) fn improve(
     problem: &mut Problem,
-    points: &mut Vec<Point>,
+    points: &[Point],
     settings: &Settings,
     context: &Context,
-) -> Result<()> {
+) -> Result<Improved> {
     let start = problem.assembly.census(points);
-    let (mut best, mut best_score) = (points.clone(), score(&start));
+    let mut improved = Improved { best: points.to_vec(), safe: points.to_vec() };
+    let (mut best, mut safe) = (f64::NEG_INFINITY, score(&start));
+    let mut points = points.to_vec();
     let limits = Limits { iterations: settings.improve_iterations, tolerance: TOLERANCE };
     for round in 0..settings.improve_rounds {
         context.tick(round as f64 / settings.improve_rounds as f64)?;
-        let census = step(problem, points, law(settings, round), limits, context)?;
-        if census.worst >= start.worst && score(&census) > best_score {
-            best_score = score(&census);
-            best.copy_from_slice(points);
+        let census = step(problem, &mut points, law(settings, round), limits, context)?;
+        if score(&census) > best {
+            best = score(&census);
+            improved.best.copy_from_slice(&points);
+        }
+        if census.worst >= start.worst && score(&census) > safe {
+            safe = score(&census);
+            improved.safe.copy_from_slice(&points);
         }
     }
-    *points = best;
-    Ok(())
+    Ok(improved)
 }
 
 /// The law of a round, for the worst quality 1: exponents double evenly over the rounds.

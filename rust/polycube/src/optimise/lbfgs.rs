@@ -1,12 +1,11 @@
 //! Minimises a smooth function of points: L-BFGS (Nocedal and Wright, "Numerical Optimization", algorithm 7.4) with the
 //! bisecting line search of Lewis and Overton (2013) for the weak Wolfe conditions.
 
+use super::field::{Field, dot, paired, update};
 use crate::error::Result;
 use crate::mesh::Point;
 use nalgebra::Vector3;
 use std::collections::VecDeque;
-
-type Field = Vec<Vector3<f64>>;
 
 /// Pairs of steps and gradient changes remembered.
 const MEMORY: usize = 8;
@@ -49,21 +48,8 @@ struct Pair {
     change: Field,
     /// `1 / (step · change)`.
     rho: f64,
-}
-
-/// Sum of products in a fixed order, on eight lanes.
-fn dot(a: &[Vector3<f64>], b: &[Vector3<f64>]) -> f64 {
-    let mut lanes = [0.0; 8];
-    for (a, b) in a.chunks(8).zip(b.chunks(8)) {
-        for (lane, (a, b)) in lanes.iter_mut().zip(a.iter().zip(b)) {
-            *lane += a.dot(b);
-        }
-    }
-    lanes.iter().sum()
-}
-
-fn add(to: &mut [Vector3<f64>], factor: f64, from: &[Vector3<f64>]) {
-    to.iter_mut().zip(from).for_each(|(t, f)| *t += f * factor);
+    /// Of the scales, the multiple that fits the inverse Hessian along `change` best.
+    factor: f64,
 }
 
 /// Minus the approximate inverse Hessian times the gradient. `scales` are squared lengths a vertex: the first guess of
@@ -73,14 +59,14 @@ fn direction(pairs: &VecDeque<Pair>, gradient: &[Vector3<f64>], scales: &[f64]) 
     let mut alphas = Vec::with_capacity(pairs.len());
     for pair in pairs.iter().rev() {
         let alpha = pair.rho * dot(&pair.step, &d);
-        add(&mut d, -alpha, &pair.change);
+        update(&mut d, &pair.change, |d, change| *d -= change * alpha);
         alphas.push(alpha);
     }
-    let factor = pairs.back().map_or_else(|| first_factor(&d, scales), |pair| last_factor(pair, scales));
-    d.iter_mut().zip(scales).for_each(|(d, s)| *d *= factor * s);
+    let factor = pairs.back().map_or_else(|| first_factor(&d, scales), |pair| pair.factor);
+    update(&mut d, scales, |d, s| *d *= factor * s);
     for (pair, alpha) in pairs.iter().zip(alphas.into_iter().rev()) {
         let beta = pair.rho * dot(&pair.change, &d);
-        add(&mut d, alpha - beta, &pair.step);
+        update(&mut d, &pair.step, |d, step| *d += step * (alpha - beta));
     }
     d
 }
@@ -88,11 +74,6 @@ fn direction(pairs: &VecDeque<Pair>, gradient: &[Vector3<f64>], scales: &[f64]) 
 fn first_factor(d: &[Vector3<f64>], scales: &[f64]) -> f64 {
     let longest = d.iter().zip(scales).map(|(d, s)| d.norm() * s.sqrt()).fold(0.0, f64::max);
     if longest > 0.0 { FIRST_STEP / longest } else { 0.0 }
-}
-
-fn last_factor(pair: &Pair, scales: &[f64]) -> f64 {
-    let scaled: f64 = pair.change.iter().zip(scales).map(|(c, s)| c.norm_squared() * s).sum();
-    1.0 / (pair.rho * scaled)
 }
 
 /// A place with its energy and gradient.
@@ -116,7 +97,7 @@ fn search(
     let (mut low, mut high, mut step) = (0.0, f64::INFINITY, 1.0);
     let (mut next, mut best) = (from.clone(), None);
     for _ in 0..TRIALS {
-        next.points.iter_mut().zip(&from.points).zip(d).for_each(|((n, p), d)| *n = p + d * step);
+        next.points = paired(&from.points, d, |p, d| p + d * step);
         next.energy = evaluate(&next.points, &mut next.gradient)?;
         let descends = next.energy < from.energy && next.energy <= from.energy + DESCENT * step * slope;
         if !descends {
@@ -156,7 +137,7 @@ pub(super) fn minimise(
         let d = direction(&pairs, &state.gradient, scales);
         match search(&state, &d, evaluate)? {
             Some(next) => {
-                remember(&mut pairs, &state, &next);
+                remember(&mut pairs, &state, &next, scales);
                 outcome.energies.push(next.energy);
                 state = next;
                 if outcome.is_slow(limits.tolerance) {
@@ -172,15 +153,16 @@ pub(super) fn minimise(
     Ok(outcome)
 }
 
-fn remember(pairs: &mut VecDeque<Pair>, from: &State, to: &State) {
-    let step: Field = to.points.iter().zip(&from.points).map(|(a, b)| a - b).collect();
-    let change: Field = to.gradient.iter().zip(&from.gradient).map(|(a, b)| a - b).collect();
+fn remember(pairs: &mut VecDeque<Pair>, from: &State, to: &State, scales: &[f64]) {
+    let step = paired(&to.points, &from.points, |a, b| a - b);
+    let change = paired(&to.gradient, &from.gradient, |a, b| a - b);
     let product = dot(&step, &change);
     if product > 1e-12 * (dot(&step, &step) * dot(&change, &change)).sqrt() {
         if pairs.len() == MEMORY {
             pairs.pop_front();
         }
-        pairs.push_back(Pair { step, change, rho: 1.0 / product });
+        let scaled = paired(&change, scales, |c, s| c * *s);
+        pairs.push_back(Pair { rho: 1.0 / product, factor: product / dot(&change, &scaled), step, change });
     }
 }
 

@@ -15,9 +15,11 @@
 mod assembly;
 mod elements;
 mod energy;
+mod field;
 mod freedom;
 mod guide;
 mod improve;
+mod lanes;
 mod lbfgs;
 mod nearest;
 mod polish;
@@ -40,6 +42,7 @@ use crate::context::Context;
 use crate::error::{Error, ErrorKind, Place, Result};
 use crate::mesh::Point;
 use freedom::Constraints;
+use improve::{Improved, improve};
 use problem::Problem;
 
 /// How hard to try. The defaults suit 1,000 to 1,000,000 hexahedra.
@@ -126,7 +129,9 @@ pub fn optimise(
     let mut elements = elements.clone();
     let size = mean_size(&elements, points);
     elements.enlarge(size);
+    context.tick(0.0)?;
     let mut problem = Problem::new(&elements, constraints, points.len());
+    context.tick(0.0)?;
     let before = problem.assembly.census(points);
     let mut moved = points.clone();
     run(&mut problem, &mut moved, settings, context)?;
@@ -155,11 +160,28 @@ fn run(problem: &mut Problem, points: &mut Vec<Point>, settings: &Settings, cont
         valid = untangle::untangle(problem, points, settings, &context.stage("untangle", 0.0, 0.4))?;
     }
     if valid {
-        improve::improve(problem, points, settings, &context.stage("improve", 0.4, 0.9))?;
-        let context = context.stage("polish", 0.9, 1.0);
-        polish::polish(problem.elements, &problem.constraints, points, settings.polish_rounds, &context)?;
+        raise(problem, points, settings, context)?;
     }
     context.stage("polish", 0.9, 1.0).tick(1.0)
+}
+
+/// The phases after untangling. What is good for most elements at first lowers the worst quality, which polishing makes good
+/// again; only where it does not, the best state with a worst quality as in `points` is taken.
+fn raise(problem: &mut Problem, points: &mut Vec<Point>, settings: &Settings, context: &Context) -> Result<()> {
+    let least = problem.assembly.census(points).worst;
+    let Improved { best, safe } = improve(problem, points, settings, &context.stage("improve", 0.4, 0.9))?;
+    let fair = improve::score(&problem.assembly.census(&safe));
+    for (state, part) in [(best, 0.9), (safe, 0.95)] {
+        *points = state;
+        problem.constraints.project(points);
+        let context = context.stage("polish", part, part + 0.05);
+        polish::polish(problem.elements, &problem.constraints, points, settings.polish_rounds, least, &context)?;
+        let census = problem.assembly.census(points);
+        if census.worst >= least && improve::score(&census) >= fair {
+            break;
+        }
+    }
+    Ok(())
 }
 
 fn check(points: &[Point], elements: &Elements, freedom: &[Freedom], settings: &Settings) -> Result<()> {
@@ -185,12 +207,9 @@ fn check(points: &[Point], elements: &Elements, freedom: &[Freedom], settings: &
 
 /// The factor by which the references must grow to have the mean volume of the elements, which a fixed boundary keeps.
 fn mean_size(elements: &Elements, points: &[Point]) -> f64 {
-    let det = |i: usize| (quality::edges(points, elements.corners[i]) * elements.inverse[i]).determinant();
-    let sum = |each: &dyn Fn(f64) -> f64| -> f64 {
-        (0..elements.len()).map(|i| elements.weights[i] * each(det(i))).sum::<f64>()
-    };
+    let dets = elements.each(|i| elements.weights[i] * elements.det(i, points));
     let weight: f64 = elements.weights.iter().sum();
-    let (mean, absolute) = (sum(&|d| d) / weight, sum(&f64::abs) / weight);
+    let (mean, absolute) = (dets.iter().sum::<f64>() / weight, dets.iter().map(|d| d.abs()).sum::<f64>() / weight);
     // Corners of tangled hexahedra may cancel each other out.
     let mean = if mean > 0.05 * absolute { mean } else { absolute };
     if mean > 0.0 && mean.is_finite() { libm::cbrt(mean) } else { 1.0 }

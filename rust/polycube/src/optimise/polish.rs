@@ -12,6 +12,8 @@ use nalgebra::Vector3;
 const WORST: usize = 64;
 /// Step lengths tried, as shares of the shortest edge around the vertex.
 const STEPS: [f64; 5] = [0.3, 0.1, 0.03, 0.01, 0.003];
+/// How much longer polishing may take to reach what is wanted.
+const LONGER: usize = 4;
 /// A move must gain this much, so that rounds end.
 const GAIN: f64 = 1e-5;
 
@@ -48,19 +50,25 @@ fn directions() -> impl Iterator<Item = Vector3<f64>> {
     all.filter(|d| *d != Vector3::zeros()).map(|d| d.normalize())
 }
 
-/// Never lowers the worst quality around any vertex it moves; keeps sliding vertices on their guides.
+/// Never lowers the worst quality around any vertex it moves; keeps sliding vertices on their guides. Goes on for longer than
+/// the given rounds while the worst quality is below `wanted`.
 pub(super) fn polish(
     elements: &Elements,
     constraints: &Constraints,
     points: &mut [Point],
     rounds: usize,
+    wanted: f64,
     context: &Context,
 ) -> Result<()> {
     let stars = Stars::new(elements, points.len());
-    for round in 0..rounds {
-        context.tick(round as f64 / rounds as f64)?;
+    for round in 0..LONGER * rounds {
+        context.tick(round as f64 / (LONGER * rounds) as f64)?;
+        let worst = worst_elements(elements, points);
+        if round >= rounds && worst.first().is_none_or(|w| w.0 >= wanted) {
+            break;
+        }
         let mut moved = false;
-        for v in worst_vertices(elements, points) {
+        for v in vertices(elements, &worst) {
             if context.is_cancelled() {
                 break;
             }
@@ -73,30 +81,40 @@ pub(super) fn polish(
     context.tick(1.0)
 }
 
-/// The vertices of the worst elements, each once, from the worst.
-fn worst_vertices(elements: &Elements, points: &[Point]) -> Vec<usize> {
-    let mut order: Vec<(f64, u32)> = (0..elements.len()).map(|e| (elements.quality(e, points), e as u32)).collect();
+/// The worst elements with their qualities, from the worst.
+fn worst_elements(elements: &Elements, points: &[Point]) -> Vec<(f64, u32)> {
+    let mut order = elements.each(|e| (elements.quality(e, points), e as u32));
     let by_quality = |a: &(f64, u32), b: &(f64, u32)| a.0.total_cmp(&b.0).then(a.1.cmp(&b.1));
     if order.len() > WORST {
         order.select_nth_unstable_by(WORST, by_quality);
         order.truncate(WORST);
     }
     order.sort_by(by_quality);
+    order
+}
+
+/// The vertices of some elements, each once.
+fn vertices(elements: &Elements, some: &[(f64, u32)]) -> Vec<usize> {
     let mut seen = std::collections::BTreeSet::new();
-    let all = order.iter().flat_map(|(_, e)| elements.corners[*e as usize]);
+    let all = some.iter().flat_map(|(_, e)| elements.corners[*e as usize]);
     all.filter(|v| seen.insert(*v)).map(|v| v as usize).collect()
 }
 
 /// Tries to move the vertex; whether it did.
 fn better(elements: &Elements, constraints: &Constraints, star: &[u32], points: &mut [Point], vertex: usize) -> bool {
     let reach = shortest(elements, star, points);
-    let mut at = points[vertex];
-    let (start, mut quality) = (at, worst(elements, star, points));
+    let (mut at, start) = (points[vertex], points[vertex]);
+    let mut star = star.to_vec();
+    let mut quality = worst(elements, &mut star, points, f64::NEG_INFINITY);
     for step in STEPS.map(|s| s * reach) {
         for direction in directions() {
-            let to = at + constraints.allowed(vertex, direction) * step;
-            points[vertex] = if to == at { at } else { constraints.placed(vertex, to) };
-            let now = worst(elements, star, points);
+            points[vertex] = at + constraints.allowed(vertex, direction) * step;
+            // Guides are near their tangents, and far more costly to ask than the elements.
+            if points[vertex] == at || worst(elements, &mut star, points, quality + GAIN) <= quality + GAIN {
+                continue;
+            }
+            points[vertex] = constraints.placed(vertex, points[vertex]);
+            let now = worst(elements, &mut star, points, quality + GAIN);
             if now > quality + GAIN {
                 (at, quality) = (points[vertex], now);
             }
@@ -106,8 +124,18 @@ fn better(elements: &Elements, constraints: &Constraints, star: &[u32], points: 
     at != start
 }
 
-fn worst(elements: &Elements, star: &[u32], points: &[Point]) -> f64 {
-    star.iter().map(|e| elements.quality(*e as usize, points)).fold(1.0, f64::min)
+/// The worst quality in a star, or one of at most `bar` once it is seen. Puts that element first: it may well be the worst
+/// next time.
+fn worst(elements: &Elements, star: &mut [u32], points: &[Point], bar: f64) -> f64 {
+    let mut worst = 1.0_f64;
+    for i in 0..star.len() {
+        worst = worst.min(elements.quality(star[i] as usize, points));
+        if worst <= bar {
+            star.swap(0, i);
+            break;
+        }
+    }
+    worst
 }
 
 fn shortest(elements: &Elements, star: &[u32], points: &[Point]) -> f64 {

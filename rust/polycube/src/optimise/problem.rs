@@ -33,14 +33,14 @@ impl<'a> Problem<'a> {
         Self { elements, assembly, constraints, scales: scales(elements, count), iterations: 0 }
     }
 
-    /// Goes down the energy from `points` along the tangents of the guides.
+    /// Goes down the energy from `points` along the tangents of the guides; returns by which share it fell.
     pub(super) fn descend(
         &mut self,
         points: &mut Vec<Point>,
         law: &Law,
         limits: Limits,
         context: &Context,
-    ) -> Result<()> {
+    ) -> Result<f64> {
         let (assembly, constraints) = (&mut self.assembly, &self.constraints);
         let mut evaluate = |points: &[Point], gradient: &mut [Vector3<f64>]| {
             let energy = assembly.evaluate(points, law, gradient, context)?;
@@ -48,14 +48,9 @@ impl<'a> Problem<'a> {
             Ok(energy)
         };
         let outcome = minimise(points, &self.scales, limits, &mut evaluate)?;
-        self.iterations += outcome.energies.len() - 1;
-        Ok(())
-    }
-
-    /// The energy at `points`.
-    pub(super) fn energy(&mut self, points: &[Point], law: &Law, context: &Context) -> Result<f64> {
-        let mut gradient = vec![Vector3::zeros(); points.len()];
-        self.assembly.evaluate(points, law, &mut gradient, context)
+        let energies = &outcome.energies;
+        self.iterations += energies.len() - 1;
+        Ok(1.0 - energies[energies.len() - 1] / energies[0])
     }
 
     /// Puts the sliding vertices of `to` on their guides. Where that gives an element no more than the quality `bar`, its
@@ -96,12 +91,10 @@ impl<'a> Problem<'a> {
 
 fn scales(elements: &Elements, count: usize) -> Vec<f64> {
     let mut diagonal = vec![0.0; count];
-    for ((corner, inverse), weight) in elements.corners.iter().zip(&elements.inverse).zip(&elements.weights) {
-        let origin = inverse.row_sum();
-        diagonal[corner[0] as usize] += weight * origin.norm_squared();
-        for k in 0..3 {
-            diagonal[corner[k + 1] as usize] += weight * inverse.row(k).norm_squared();
-        }
+    for ((corner, reference), weight) in elements.corners.iter().zip(&elements.references).zip(&elements.weights) {
+        let [xx, yy, zz, yz, xz, xy] = reference.metric;
+        let squares = [xx + yy + zz + 2.0 * (yz + xz + xy), xx, yy, zz];
+        corner.iter().zip(squares).for_each(|(v, square)| diagonal[*v as usize] += weight * square);
     }
     diagonal.into_iter().map(|d: f64| if d > 0.0 { 1.0 / d } else { 0.0 }).collect()
 }

@@ -2,7 +2,7 @@
 
 use crate::error::{Error, ErrorKind, Result};
 use crate::mesh::{Cells, Mesh, Point};
-use nalgebra::{Matrix3, Vector3};
+use nalgebra::Matrix3;
 
 /// Each corner of a hexahedron in VTK's order with its three neighbours, in a right-handed order.
 pub(super) const HEX_CORNERS: [[usize; 4]; 8] =
@@ -159,15 +159,10 @@ pub fn statistics(qualities: &[(f64, f64)]) -> Statistics {
     }
 }
 
-/// The cofactors of `m`: the derivative of its determinant.
-pub(super) fn cofactors(m: &Matrix3<f64>) -> Matrix3<f64> {
-    let [a, b, c] = [0, 1, 2].map(|i| -> Vector3<f64> { m.column(i).into() });
-    Matrix3::from_columns(&[b.cross(&c), c.cross(&a), a.cross(&b)])
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
+    use nalgebra::Vector3;
 
     fn cube() -> Mesh {
         let at = [[0, 0, 0], [1, 0, 0], [1, 1, 0], [0, 1, 0], [0, 0, 1], [1, 0, 1], [1, 1, 1], [0, 1, 1]];

@@ -32,9 +32,7 @@ pub(super) fn untangle(
     for round in 0..settings.untangle_rounds {
         context.tick(round as f64 / settings.untangle_rounds as f64)?;
         let law = Law::Regularised { theta: settings.theta, epsilon };
-        let before = problem.energy(points, &law, context)?;
-        problem.descend(points, &law, limits, context)?;
-        let gain = 1.0 - problem.energy(points, &law, context)? / before;
+        let gain = problem.descend(points, &law, limits, context)?;
         problem.constraints.project(points);
         let census = problem.assembly.census(points);
         if census.inverted == 0 && census.least > 0.0 {

@@ -4,6 +4,10 @@ use crate::context::Context;
 use crate::error::{Error, ErrorKind, Result};
 use crate::mesh::{Face, Mesh, Point, split_quad};
 use crate::optimise::Nearest;
+use rayon::prelude::*;
+
+/// Vertices or faces between two looks at the context: some milliseconds' work.
+const AT_ONCE: usize = 1024;
 
 /// Sides of the grid of samples on a quadrilateral.
 const SAMPLES: usize = 4;
@@ -36,16 +40,24 @@ fn farthest(from: &Mesh, to: &Mesh, context: &Context) -> Result<f64> {
     let at_vertices = vertex_distances(from, &faces, &index, &context.stage("hausdorff", 0.0, 0.3))?;
     let context = context.stage("hausdorff", 0.3, 1.0);
     let mut worst = at_vertices.iter().copied().fold(0.0_f64, f64::max);
-    for (i, face) in faces.iter().enumerate() {
-        context.tick_every(i, faces.len())?;
-        for sample in samples(from, face) {
-            let reach = |&v: &u32| at_vertices[v as usize] + (sample - from.points[v as usize]).norm();
-            if face.vertices().iter().map(reach).fold(f64::INFINITY, f64::min) > worst {
-                worst = worst.max(index.distance(&sample));
-            }
-        }
+    for (i, some) in faces.chunks(AT_ONCE).enumerate() {
+        context.tick((i * AT_ONCE) as f64 / faces.len() as f64)?;
+        let far = |face: &Face| farthest_sample(from, face, &index, &at_vertices, worst);
+        worst = some.par_iter().with_min_len(32).map(far).reduce(|| worst, f64::max);
     }
     Ok(worst)
+}
+
+/// The largest distance of a sample on a face that is farther than `least`, else `least`.
+fn farthest_sample(mesh: &Mesh, face: &Face, index: &Nearest<3>, at_vertices: &[f64], least: f64) -> f64 {
+    let mut worst = least;
+    for sample in samples(mesh, face) {
+        let reach = |&v: &u32| at_vertices[v as usize] + (sample - mesh.points[v as usize]).norm();
+        if face.vertices().iter().map(reach).fold(f64::INFINITY, f64::min) > worst {
+            worst = worst.max(index.distance(&sample));
+        }
+    }
+    worst
 }
 
 /// The distance of every vertex of `faces` from the index; 0 for vertices off the surface.
@@ -53,9 +65,15 @@ fn vertex_distances(mesh: &Mesh, faces: &[Face], index: &Nearest<3>, context: &C
     let mut used = vec![false; mesh.points.len()];
     faces.iter().flat_map(Face::vertices).for_each(|&v| used[v as usize] = true);
     let mut distances = vec![0.0; used.len()];
-    for (v, _) in used.iter().enumerate().filter(|(_, used)| **used) {
-        context.tick_every(v, used.len())?;
-        distances[v] = index.distance(&mesh.points[v]);
+    let distance = |(distance, (point, used)): (&mut f64, (&Point, &bool))| {
+        *distance = if *used { index.distance(point) } else { 0.0 };
+    };
+    let count = used.len();
+    for (i, some) in distances.chunks_mut(AT_ONCE).enumerate() {
+        let first = i * AT_ONCE;
+        context.tick(first as f64 / count as f64)?;
+        let inputs = mesh.points[first..].par_iter().zip(&used[first..]);
+        some.par_iter_mut().zip(inputs).with_min_len(64).for_each(distance);
     }
     Ok(distances)
 }

@@ -10,6 +10,7 @@ use crate::error::Result;
 use crate::mesh::Point;
 use crate::optimise::{Elements, Freedom, Guide, Settings, optimise, scaled_jacobian};
 use crate::simplify::Simplified;
+use rayon::prelude::*;
 
 /// Most passes of the optimiser over a mesh: each asks for boxes of the sizes that the one before led to.
 const PASSES: usize = 4;
@@ -47,8 +48,9 @@ pub(super) fn improve(
     bound: f64,
     context: &Context,
 ) -> Result<Improved> {
-    let slides = Slides::new(&map.input, shape)?;
+    let slides = Slides::new(&map.input, shape, &context.stage("untangle", 0.0, 0.0))?;
     let elements = Elements::boxes_like(cells_of(hexes), &hexes.mesh.points, SMOOTHING)?;
+    context.stage("untangle", 0.0, 0.0).tick(0.0)?;
     let freedom = slides.freedoms(&hexes.sites, Hold::Corners);
     let mut job = Job { elements, guides: slides.guides(), slides: &slides, hexes, freedom, released: 0 };
     job.untangle(settings, &context.stage("untangle", 0.0, 0.4))?;
@@ -101,11 +103,13 @@ impl Job<'_> {
 
     /// Puts every surface vertex on what it slides on.
     fn project(&mut self) {
-        for (point, freedom) in self.hexes.mesh.points.iter_mut().zip(&self.freedom) {
+        let guides = &self.guides;
+        let each = self.hexes.mesh.points.par_iter_mut().zip(&self.freedom).with_min_len(256);
+        each.for_each(|(point, freedom)| {
             if let Freedom::Guided(g) = freedom {
-                *point = self.guides[*g as usize].contact(point).point;
+                *point = guides[*g as usize].contact(point).point;
             }
-        }
+        });
     }
 
     /// One optimisation; how many hexahedra are inverted after it.

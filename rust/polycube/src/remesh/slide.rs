@@ -1,6 +1,7 @@
 //! What the surface vertices of a mesh slide on: the images of facets and edges on the shape.
 
 use super::site::Site;
+use crate::context::Context;
 use crate::error::Result;
 use crate::mesh::{Face, Point, split_quad};
 use crate::optimise::{CurveGuide, Freedom, Guide, SurfaceGuide, Tangent};
@@ -30,7 +31,7 @@ pub(super) struct Slides {
 
 impl Slides {
     /// Indexes the facets' triangles and the edges' segments on the shape. O(n log n).
-    pub(super) fn new(polycube: &Polycube, shape: &[Point]) -> Result<Self> {
+    pub(super) fn new(polycube: &Polycube, shape: &[Point], context: &Context) -> Result<Self> {
         let mut triangles = vec![Vec::new(); polycube.structure.facets.len()];
         for (face, &facet) in polycube.surface.faces().iter().zip(&polycube.facet_of_face) {
             match *face {
@@ -40,11 +41,20 @@ impl Slides {
         }
         let segments = |chain: &Vec<u32>| -> Vec<[u32; 2]> { chain.windows(2).map(|s| [s[0], s[1]]).collect() };
         let all: Vec<[u32; 3]> = triangles.concat();
+        let whole = SurfaceGuide::new(shape, &all)?;
+        let facet = |own: &Vec<[u32; 3]>| {
+            context.tick(0.0)?;
+            SurfaceGuide::new(shape, own)
+        };
+        let edge = |chain: &Vec<u32>| {
+            context.tick(0.0)?;
+            CurveGuide::new(shape, &segments(chain))
+        };
         Ok(Self {
             structure: polycube.structure.clone(),
-            whole: SurfaceGuide::new(shape, &all)?,
-            facets: triangles.iter().map(|t| SurfaceGuide::new(shape, t)).collect::<Result<_>>()?,
-            edges: polycube.chains.iter().map(|c| CurveGuide::new(shape, &segments(c))).collect::<Result<_>>()?,
+            whole,
+            facets: triangles.iter().map(facet).collect::<Result<_>>()?,
+            edges: polycube.chains.iter().map(edge).collect::<Result<_>>()?,
         })
     }
 

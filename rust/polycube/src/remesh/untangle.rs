@@ -43,9 +43,11 @@ fn freedoms(polycube: &Polycube) -> Vec<Freedom> {
 const SPLITS: usize = 2;
 
 /// Moves the surface vertices of a polycube in their facets and along their edges so that no triangle is turned over
-/// and each looks like that of the shape, as far as that goes; splits triangles where it does not go otherwise.
+/// and each looks like that of the shape, as far as that goes; splits triangles where it does not go otherwise, as long as that
+/// leaves fewer of them turned over.
 pub(super) fn surface(refined: &mut Refined, context: &Context) -> Result<()> {
     spread_chains(refined);
+    let mut least = usize::MAX;
     for round in 0..=SPLITS {
         let from = 0.8 * round as f64 / (SPLITS + 1) as f64;
         let bad = relax(refined, false, &context.stage("map", from, 0.8))?;
@@ -53,6 +55,10 @@ pub(super) fn surface(refined: &mut Refined, context: &Context) -> Result<()> {
             relax(refined, true, &context.stage("map", 0.8, 1.0))?;
             break;
         }
+        if bad.len() >= least {
+            break;
+        }
+        least = bad.len();
         if round < SPLITS {
             refined.split_facets_of(&bad)?;
         }
