@@ -18,8 +18,17 @@ const KEPT: f64 = 0.8;
 const MISSES: usize = 2;
 /// Points of the front of which coarse meshes are made.
 const TRIES: usize = 6;
-/// Points of the front that are meshed finely as long as none is inverted.
-const MESHED: usize = 3;
+/// Points of the front that are meshed finely as long as the best of them is not inverted.
+const MESHED: usize = 4;
+
+/// What is wrong with the best mesh so far.
+#[derive(Clone, Copy, PartialEq, Eq)]
+pub(super) enum Wrong {
+    /// It has inverted hexahedra.
+    Inverted,
+    /// It is farther from the shape than asked for.
+    Far,
+}
 
 /// Candidates to be meshed, the one that promises most first.
 pub(super) struct Choice<'a> {
@@ -68,6 +77,14 @@ impl<'a> Choice<'a> {
         !self.left.is_empty() && worst < GOOD && (worst <= 0.0 || best(lately) > best(before) + WORTH)
     }
 
+    /// The next point of the front; from the third mesh on the middle one of those left, as such a shape has a long way to go.
+    fn nearer(&mut self, context: &Context) -> Result<Option<Start>> {
+        if self.taken > 2 {
+            self.left.drain(..self.left.len().saturating_sub(1) / 2);
+        }
+        self.start(context)
+    }
+
     /// The next point of the front that was not tried.
     fn start(&mut self, context: &Context) -> Result<Option<Start>> {
         if self.left.is_empty() {
@@ -77,21 +94,23 @@ impl<'a> Choice<'a> {
         Start::new(self.input, found, self.options, context).map(Some)
     }
 
-    /// The next candidate: the one with the fewest blocks whose coarse mesh is good or nearly as good as the best; then those that were
-    /// not tried, if the meshes made of the others have inverted hexahedra.
+    /// The next candidate: the one with the fewest blocks whose coarse mesh is good or nearly as good as the best; then, if the best mesh
+    /// made so far has inverted hexahedra or is too far from the shape, those that were not tried.
     ///
     /// # Errors
     /// Those of [`Start::new`] and [`Simplified::at`].
-    pub(super) fn next(&mut self, inverted: bool, context: &Context) -> Result<Option<Start>> {
-        if !inverted && self.taken >= MESHED {
+    pub(super) fn next(&mut self, wrong: Option<Wrong>, context: &Context) -> Result<Option<Start>> {
+        if wrong != Some(Wrong::Inverted) && self.taken >= MESHED {
             return Ok(None);
         }
         self.taken += 1;
         let best = self.tried.iter().map(value).fold(f64::NEG_INFINITY, f64::max);
         let good = |s: &Start| s.worst().is_some_and(|worst| worst >= GOOD) || value(s) >= best - WORTH;
         match self.tried.iter().position(good) {
-            Some(k) => Ok(Some(self.tried.remove(k))),
-            None if inverted => self.start(context),
+            // Those with fewer blocks move corners farther: what is wrong with this one is wrong with them.
+            Some(k) => Ok(self.tried.drain(..=k).next_back()),
+            None if wrong == Some(Wrong::Far) => self.nearer(context),
+            None if wrong == Some(Wrong::Inverted) => self.start(context),
             None => Ok(None),
         }
     }

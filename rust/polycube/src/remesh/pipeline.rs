@@ -1,6 +1,6 @@
 //! The whole way from a polycube and its shape to a block structure, quadrilaterals and hexahedra.
 
-use super::choose::{Choice, keeps_promise};
+use super::choose::{Choice, Wrong, keeps_promise};
 use super::climb::{Rung, finish};
 use super::improve::Improved;
 use super::report::{RemeshReport, Stages, cells_of, diagonal, measure};
@@ -112,6 +112,13 @@ fn simplifying(options: &RemeshOptions) -> simplify::Options {
 /// worst hexahedron is: the less, the better.
 type Rank = (usize, bool, f64, f64);
 
+fn wrong(&(inverted, _, far, _): &Rank) -> Option<Wrong> {
+    match inverted {
+        0 => (far > 0.0).then_some(Wrong::Far),
+        _ => Some(Wrong::Inverted),
+    }
+}
+
 /// The first mesh that is as good as its coarse one promised and as near to the shape as asked for, else the best: the one with the
 /// fewest inverted hexahedra, then one as good as promised, then the one that is nearest, then that with the best worst hexahedron.
 fn best(
@@ -120,12 +127,12 @@ fn best(
     stages: &mut Stages,
     context: &Context,
 ) -> Result<(Simplified, Meshed)> {
-    let mut best = None;
+    let mut best: Option<(Rank, Simplified, Meshed)> = None;
     // Each takes half of the progress that is left: mostly there is one.
     let mut done = 0.0;
     loop {
-        let inverted = best.as_ref().is_none_or(|((inverted, ..), ..): &(Rank, _, _)| *inverted > 0);
-        let next = choice.next(inverted, &context.stage("map", done, done))?;
+        let wrong = best.as_ref().and_then(|(rank, ..)| wrong(rank));
+        let next = choice.next(wrong, &context.stage("map", done, done))?;
         let Some(Start { simplified, map, shape, rung, spaced }) = next else { break };
         let promise = rung.as_ref().map(|r| r.worst);
         let share = (1.0 - done) / 2.0;
