@@ -57,6 +57,7 @@ TEST_CASE("remesh writes what the command writes") {
         " --hexes 1500 --max-hausdorff 100 -q -o " + (folder / "out"));
     polycube::RemeshOptions options = coarse();
     options.simplify = {};
+    options.max_hausdorff = 1.0;
     const polycube::Remeshed result = polycube::remesh({polycube, shape}, options);
     REQUIRE(result.hexes);
     polycube::write_mesh(folder / "hexes.vtu", result.hexes->mesh, result.hexes->fields());

@@ -144,7 +144,8 @@ def test_faces_get_scalars_and_colours(pair):
 def test_simplicity_trades_blocks_for_displacement(pair):
     few, near = (simplified(pair, simplicity=s)[1] for s in (1.0, 0.0))
     assert few["surface_patches_after"] <= near["surface_patches_after"]
-    assert near["max_displacement"] <= few["max_displacement"]
+    # The front is ordered by the displacement of the order alone; rounding to the lattice adds a step at most.
+    assert near["max_displacement"] <= few["max_displacement"] + 1
     assert near["surface_patches_after"] <= near["surface_patches_before"]
 
 
