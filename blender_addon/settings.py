@@ -74,11 +74,12 @@ class SearchOptions(Options):
         name="Fewest",
         description="The number that the search makes small",
         items=(
+            ('AUTO', "Automatic", "Patches of surfaces, and blocks with padding where the shape is filled with hexahedra"),
             ('surface_patches', "Patches", "Quadrilateral patches of the surface"),
             ('blocks', "Blocks", "Blocks of the solid"),
             ('blocks_padded', "Blocks with Padding", "Blocks of the solid once a layer of hexahedra is laid around it"),
         ),
-        default='surface_patches',
+        default='AUTO',
         options=FORGET,
     )
     simplicity: FloatProperty(**SIMPLICITY, options=FORGET)

@@ -40,7 +40,7 @@ def search_options(options, locked):
     """The arguments that `Job.simplify` and `Job.remesh` share, from an operator's or the panel's options."""
     given = {
         "strategy": options.strategy,
-        "objective": options.objective,
+        "objective": None if options.objective == 'AUTO' else options.objective,
         "simplicity": options.simplicity,
         "max_displacement": options.max_displacement or None,
         "max_distortion": options.max_distortion or None,

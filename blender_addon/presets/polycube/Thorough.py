@@ -2,7 +2,7 @@ import bpy
 
 polycube = bpy.context.scene.polycube
 polycube.strategy = 'best'
-polycube.objective = 'surface_patches'
+polycube.objective = 'AUTO'
 polycube.simplicity = 1.0
 polycube.steps = 4000
 polycube.max_distortion = 0.0
