@@ -225,12 +225,22 @@ pub fn read_structure(input: &Input, tolerance: &Tolerance) -> Result<Polycube> 
 fn read_in_steps(input: &Input, tolerance: &Tolerance, context: &Context) -> Result<Polycube> {
     context.tick(0.0)?;
     check_fit(input)?;
-    let polycube = Polycube::new(input.polycube, input.labels, tolerance).map_err(first_of)?;
+    let blame = |violations| if is_swapped(input, tolerance) { swapped(violations) } else { first_of(violations) };
+    let polycube = Polycube::new(input.polycube, input.labels, tolerance).map_err(blame)?;
     context.tick(0.9)?;
     match polycube.overlaps(&input.polycube.points) {
         overlaps if overlaps.is_empty() => Ok(polycube),
         overlaps => Err(first_of(overlaps)),
     }
+}
+
+/// Whether the mesh given as the shape is a polycube.
+fn is_swapped(input: &Input, tolerance: &Tolerance) -> bool {
+    input.shape.is_some_and(|shape| Polycube::new(shape, None, tolerance).is_ok())
+}
+
+fn swapped(violations: Vec<Violation>) -> Error {
+    first_of(violations).remedy("swap the two: what was given as the shape is a polycube, this is none")
 }
 
 /// Simplifies a polycube (paper, Algorithm 1): finds its structure, aligns its corners on the integer
@@ -336,7 +346,8 @@ fn first_of(violations: Vec<Violation>) -> Error {
     let first = violations.into_iter().next().unwrap_or(Violation::Empty);
     let mut error = Error::from(first);
     if others > 0 {
-        error.message = format!("{}; {others} more like it, see `polycube validate`", error.message);
+        error.message =
+            format!("{}; {others} more like it, which a check lists (command: `polycube validate`)", error.message);
     }
     error
 }

@@ -6,6 +6,7 @@ use common::{dense, paper, read, simplify};
 use nalgebra::{Rotation3, Vector3};
 use polycube::generate::{Cuboid, SplitMix64, Voxels, random_polycube};
 use polycube::mesh::{CellKind, Cells, Mesh, Point};
+use polycube::simplify::{Input, read_structure};
 use polycube::structure::{Polycube, Tolerance, Violation};
 use polycube::{Error, Options, Place};
 
@@ -334,4 +335,18 @@ fn every_violation_says_what_to_do() {
         let error = Error::from(violation.clone());
         assert!(error.place == violation.place() && !error.message.is_empty() && !error.remedy.is_empty());
     }
+}
+
+#[test]
+fn swapped_meshes_are_recognised() {
+    let straight = cube(2);
+    let mut turned = straight.clone();
+    let turn = Rotation3::from_axis_angle(&Vector3::z_axis(), 40_f64.to_radians());
+    turned.points.iter_mut().for_each(|p| *p = turn * *p);
+    let remedy = |polycube, shape| {
+        let input = Input { polycube, shape: Some(shape), labels: None };
+        read_structure(&input, &Tolerance::default()).expect_err("a cube turned by 40 degrees is no polycube").remedy
+    };
+    assert!(remedy(&turned, &straight).starts_with("swap the two"));
+    assert!(!remedy(&turned, &turned).contains("swap"));
 }
