@@ -13,7 +13,7 @@ from math import log
 from pathlib import Path
 
 import others
-from report import Report, machine, milliseconds
+from report import Report, machine, milliseconds, process
 
 ROOT = Path(__file__).resolve().parent.parent
 BUNNY = "marco2016sgp-bunny"
@@ -55,6 +55,8 @@ def command(report, release, folder):
             report.target(f"`polycube simplify --strategy {strategy}`, bunny", "18,496 triangles", spent, allowed)
             if strategy == "paper":
                 report.row("… over reading and writing its files", "", f"{spent / copies:.2f}", "4", "")
+    hexes, spent, _ = hexahedra(release, files[1], files[0])(30_000)
+    report.target("`polycube remesh --hexes 30000`, bunny", f"{hexes:,} hexahedra", spent, 10_000.0)
 
 
 def bridge(report, release, folder):
@@ -74,16 +76,38 @@ def morph(report, release, folder):
     report.target("most memory: reading, structure, morph", size, line["peak_mb"], 1024.0, "MB")
 
 
-def growth(report, release, title, mode, sizes, time):
-    """Time and memory of generated polycubes, one process each."""
-    report.table(title, mode, "ms", "µs each", "MB", "kB each", "time grows as")
+def growth(report, title, unit, sizes, measure):
+    """Time and memory as the input grows, one process for each size."""
+    report.table(title, unit, "ms", "µs each", "MB", "kB each", "time grows as")
     last = None
     for wish in sizes:
-        line = timings(release, mode, wish)[0]
-        size, spent, peak = line[mode], line[time], line["peak_mb"]
+        size, spent, peak = measure(wish)
         grows = "" if last is None else f"x^{log(spent / last[1]) / log(size / last[0]):.2f}"
         report.row(f"{size:,}", spent, 1e3 * spent / size, peak, 1024.0 * peak / size, grows)
         last = size, spent
+
+
+def generated(release, mode, time):
+    """Size, milliseconds and MB of the example `timings` on a generated polycube of a given size."""
+
+    def measure(wish):
+        line = timings(release, mode, wish)[0]
+        return line[mode], line[time], line["peak_mb"]
+
+    return measure
+
+
+def hexahedra(release, shape, polycube):
+    """Size, milliseconds and MB of `polycube remesh` for a given number of hexahedra."""
+
+    def measure(wish):
+        with tempfile.TemporaryDirectory() as out:
+            call = ["remesh", shape, "--polycube", polycube, "--hexes", wish, "-o", out, "--quiet"]
+            spent, peak = process([release / "polycube", *call])
+            report = json.loads((Path(out) / "report.json").read_text())
+        return report["hexes"], spent, peak
+
+    return measure
 
 
 def arguments():
@@ -108,8 +132,16 @@ def main():
         for part in (models, command, bridge, morph):
             part(report, release, folder)
     last = slice(-1) if given.quick else slice(None)
-    growth(report, release, "Growth: mesh to counts", "corners", [100, 1000, 10_000][last], "total")
-    growth(report, release, "Growth: simplify with morph, strategy `paper`", "tetrahedra", [10_000, 100_000, 1_000_000][last], "simplify")
+    sizes = [100, 1000, 10_000][last]
+    growth(report, "Growth: mesh to counts", "corners", sizes, generated(release, "corners", "total"))
+    sizes = [10_000, 100_000, 1_000_000][last]
+    measure = generated(release, "tetrahedra", "simplify")
+    growth(report, "Growth: simplify with morph, strategy `paper`", "tetrahedra", sizes, measure)
+    with tempfile.TemporaryDirectory() as demo:
+        subprocess.run([release / "polycube", "demo", "-o", demo, "--quiet"], check=True)
+        pair = [Path(demo) / "examples" / f"stepped-l.{kind}.mesh" for kind in ("shape", "polycube")]
+        sizes = [10_000, 100_000, 500_000][last]
+        growth(report, "Growth: `polycube remesh` of an example", "hexahedra", sizes, hexahedra(release, *pair))
     if not given.quick:
         others.alignments(report, release, given.highs.resolve(), given.files)
         others.factorisations(report, json.loads((given.files / "systems.json").read_text()), given.files)

@@ -36,6 +36,7 @@ fn farthest(from: &Mesh, to: &Mesh, context: &Context) -> Result<f64> {
     if faces.is_empty() || target.is_empty() {
         return Err(Error::new(ErrorKind::Mesh, "a mesh without cells has no surface"));
     }
+    context.tick(0.0)?;
     let index = Nearest::new(target.iter().flat_map(|f| triangles(to, f)));
     let at_vertices = vertex_distances(from, &faces, &index, &context.stage("hausdorff", 0.0, 0.3))?;
     let context = context.stage("hausdorff", 0.3, 1.0);

@@ -160,6 +160,7 @@ fn untangle(simplified: &mut Simplified, input: &Input, context: &Context) -> Re
     if mesh.cells.is_volume() && !report.flipped.cells.is_empty() {
         untangle::volume(polycube, mesh, &shape.points, context)?;
     }
+    context.tick(1.0)?;
     report.rejudge(input, polycube, mesh)
 }
 
@@ -214,14 +215,19 @@ fn mesh(
     stages.mesh += (optimising - start).as_secs_f64();
     let bound = options.max_hausdorff * diagonal(shape);
     let Improved { released, far } =
-        finish(rung, &remesher, &mut hexes, options, bound, &context.stage("optimise", 0.2, 1.0))?;
+        finish(rung, &remesher, &mut hexes, options, bound, &context.stage("optimise", 0.2, 0.97))?;
     stages.optimise += optimising.elapsed().as_secs_f64();
+    let context = context.stage("mesh", 0.97, 1.0);
+    context.tick(0.0)?;
     quads.mesh.points = remesher.surface_of(&hexes.mesh.points, options.padding);
+    context.tick(0.3)?;
     let layout = remesher.layout(&hexes.mesh.points, options.padding)?;
+    context.tick(0.7)?;
     let cells = cells_of(&hexes);
     let scaled_jacobian: Vec<f64> =
         cells.iter().map(|c| crate::optimise::scaled_jacobian(&hexes.mesh.points, c)).collect();
     let inverted = scaled_jacobian.iter().filter(|q| q.is_nan() || **q <= 0.0).count();
     let worst = scaled_jacobian.iter().copied().fold(1.0, f64::min);
+    context.tick(1.0)?;
     Ok(Meshed { layout, quads, hexes: Some(hexes), scaled_jacobian, inverted, worst, far, released, spaced: false })
 }
