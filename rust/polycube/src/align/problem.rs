@@ -49,6 +49,14 @@ pub struct Difference {
     pub gap: i64,
 }
 
+impl Difference {
+    /// Ascends with the lower variable, the higher one, and the gap: one number to sort by, which is faster than three.
+    pub(crate) fn rank(&self) -> u128 {
+        let gap = (self.gap as u64) ^ (1 << 63);
+        u128::from(self.low) << 96 | u128::from(self.high) << 64 | u128::from(gap)
+    }
+}
+
 /// The constraint `Σ coefficient · x[variable] ≥ at_least`, for what is not a difference (paper, Eq. 4).
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Linear {

@@ -39,7 +39,7 @@ pub fn relax(
     solver: &dyn Solver,
     context: &Context,
 ) -> Result<Placement> {
-    let mut judge = Judge::new(structure);
+    let mut judge = None;
     let mut start: Vec<i64> = valid.iter().map(|x| x.round() as i64).collect();
     loop {
         let (problem, variables) = problem(structure, &demand);
@@ -48,7 +48,8 @@ pub fn relax(
         let at = |l: u32| levels[variables.of_level[l as usize] as usize];
         start = (0..structure.levels.len() as u32).map(at).collect();
         let placement: Placement = start.iter().map(|&x| x as f64).collect();
-        if judge.knows_valid(&Ranks::new(structure, &placement)) {
+        let mut knows_valid = |ranks: &Ranks| judge.get_or_insert_with(|| Judge::new(structure)).knows_valid(ranks);
+        if placement == valid || knows_valid(&Ranks::new(structure, &placement)) {
             return Ok(placement);
         }
         let violated = violated(&Arrangement::new(structure, &placement), valid);
@@ -71,7 +72,7 @@ fn violated(arrangement: &Arrangement, valid: &[f64]) -> Vec<Difference> {
     if conflicts.is_empty() && !arrangement.inside_out().is_empty() {
         found = changed_order(structure, valid, placement);
     }
-    found.sort_unstable_by_key(|d| (d.low, d.high, d.gap));
+    found.sort_unstable_by_key(Difference::rank);
     found.dedup();
     found
 }
@@ -138,7 +139,8 @@ fn problem(structure: &Structure, demand: &Demand) -> (Problem, Variables) {
         .map(|d| Difference { low: variables.of(d.low), high: variables.of(d.high), gap: d.gap })
         .filter(|d| d.low != d.high || d.gap > 0)
         .collect();
-    differences.sort_unstable_by_key(|d| (d.low, d.high, std::cmp::Reverse(d.gap)));
+    // The greatest gap of two variables comes first and stays.
+    differences.sort_unstable_by_key(|d| Difference { gap: !d.gap, ..*d }.rank());
     differences.dedup_by_key(|d| (d.low, d.high));
     let on_variables = |l: &Linear| Linear {
         terms: l.terms.iter().map(|&(level, c)| (variables.of(level), c)).collect(),

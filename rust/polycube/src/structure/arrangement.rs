@@ -135,20 +135,20 @@ impl<'a> Arrangement<'a> {
         let mut nearest = [[f64::INFINITY; 2]; 3];
         for side in f.sides() {
             let edge = &self.structure.edges[side.edge as usize];
-            let across = 3 - axis - edge.axis;
-            let levels = self.structure.edge_box(edge);
-            let (from, to) = self.structure.extent(&levels, &self.placement);
-            let offset = from[across] - point[across];
-            if point[edge.axis] < from[edge.axis] || point[edge.axis] > to[edge.axis] {
+            let [from, to] = self.structure.ends(edge).map(|l| self.placement[l as usize]);
+            if point[edge.axis] < from || point[edge.axis] > to {
                 continue;
             }
+            let across = 3 - axis - edge.axis;
+            let level = self.structure.corners[edge.corners[0] as usize].levels[across];
+            let offset = self.placement[level as usize] - point[across];
             if offset >= 0.0 && offset < nearest[across][1] {
                 nearest[across][1] = offset;
-                high[across] = levels.low[across];
+                high[across] = level;
             }
             if offset <= 0.0 && -offset < nearest[across][0] {
                 nearest[across][0] = -offset;
-                low[across] = levels.low[across];
+                low[across] = level;
             }
         }
         LevelBox { low, high }

@@ -11,8 +11,9 @@ pub(super) struct Extent {
 }
 
 impl Extent {
+    /// Looks at all axes, as a guess where to stop would often be wrong.
     fn meets(&self, other: &Self) -> bool {
-        (0..3).all(|a| self.low[a] <= other.high[a] && other.low[a] <= self.high[a])
+        (0..3).fold(true, |meet, a| meet & (self.low[a] <= other.high[a]) & (other.low[a] <= self.high[a]))
     }
 
     fn around(items: &[Item]) -> Self {

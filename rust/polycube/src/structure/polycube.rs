@@ -144,15 +144,15 @@ fn label_faces(
         let normal = area_vector(points, f);
         let own = given.and_then(|g| g.get(face as usize)).and_then(|&l| Label::new(l));
         let (nearest, cosine) = Label::nearest(&normal);
-        let label = own.unwrap_or(nearest);
-        labels.push(label);
+        labels.push(own.unwrap_or(nearest));
         if !cosine.is_finite() {
             if own.is_none() {
                 violations.push(Violation::FlatFace { face });
             }
             continue;
         }
-        let cosine = f64::from(label.sign()) * normal[label.axis()] / normal.norm();
+        let along = |label: Label| f64::from(label.sign()) * normal[label.axis()] / normal.norm();
+        let cosine = own.map_or(cosine, along);
         worst = worst.min(cosine);
         if own.is_none() && cosine < least && degrees(cosine) > tolerance.degrees {
             violations.push(Violation::SkewFace { face, degrees: degrees(cosine) });

@@ -20,7 +20,7 @@ pub struct Surface {
 impl Surface {
     /// Links `faces` over `vertices` vertices, or lists everything that is not closed, oriented and manifold.
     ///
-    /// O(n log n).
+    /// O(n) for n faces and vertices.
     pub fn new(faces: Vec<Face>, vertices: usize) -> Result<Self, Vec<Violation>> {
         let bad = bad_faces(&faces, vertices);
         if faces.is_empty() {
@@ -110,41 +110,30 @@ impl Surface {
     fn link(&mut self) -> Vec<Violation> {
         let mut violations = Vec::new();
         let mut twins = std::mem::take(&mut self.twins);
-        for (vertex, own) in (0..).zip(self.by_lower_end().chunks()) {
-            for group in own.chunk_by(|a, b| a.to == b.to) {
-                let edge = [vertex, group[0].to];
-                match *group {
-                    [a, b] if a.up != b.up => {
-                        twins[a.half_edge as usize] = b.half_edge;
-                        twins[b.half_edge as usize] = a.half_edge;
-                    }
-                    [_] => violations.push(Violation::OpenEdge { edge }),
-                    [_, _] => violations.push(Violation::InconsistentOrientation { edge }),
-                    _ => violations.push(Violation::NonManifoldEdge { edge }),
+        for group in self.by_ends().chunk_by(|a, b| a.ends == b.ends) {
+            let edge = group[0].ends;
+            match *group {
+                [Spoke { half_edge: a, .. }, Spoke { half_edge: b, .. }] if self.start(a) != self.start(b) => {
+                    twins[a as usize] = b;
+                    twins[b as usize] = a;
                 }
+                [_] => violations.push(Violation::OpenEdge { edge }),
+                [_, _] => violations.push(Violation::InconsistentOrientation { edge }),
+                _ => violations.push(Violation::NonManifoldEdge { edge }),
             }
         }
         self.twins = twins;
         violations
     }
 
-    /// For every vertex the half-edges to and from vertices with higher numbers, sorted by those. O(n) unless many meet
-    /// at one vertex.
-    fn by_lower_end(&self) -> Buckets {
-        let mut starts = vec![0; self.outgoing.len() + 1];
-        self.each_side(|_, from, to| starts[from.min(to) as usize + 1] += 1);
-        for v in 1..starts.len() {
-            starts[v] += starts[v - 1];
+    /// All half-edges by the mesh edges that they run over, then face by face. O(n): sorted by one end after the other.
+    fn by_ends(&self) -> Vec<Spoke> {
+        let mut spokes = Vec::with_capacity(4 * self.faces.len());
+        self.each_side(|half_edge, from, to| spokes.push(Spoke { ends: [from.min(to), from.max(to)], half_edge }));
+        for end in [1, 0] {
+            spokes = by_end(&spokes, end, self.outgoing.len());
         }
-        let mut free = starts.clone();
-        let mut entries = vec![Spoke { to: 0, half_edge: 0, up: true }; starts[self.outgoing.len()]];
-        self.each_side(|half_edge, from, to| {
-            let place = &mut free[from.min(to) as usize];
-            entries[*place] = Spoke { to: from.max(to), half_edge, up: from < to };
-            *place += 1;
-        });
-        starts.windows(2).for_each(|w| entries[w[0]..w[1]].sort_unstable_by_key(|s| (s.to, s.half_edge)));
-        Buckets { starts, entries }
+        spokes
     }
 
     /// Finds a half-edge out of each vertex and the vertices with more than one fan.
@@ -162,33 +151,35 @@ impl Surface {
     }
 }
 
-/// A half-edge at the lower of its two vertices.
+/// A half-edge with the lower and the higher of its two vertices.
 #[derive(Clone, Copy)]
 struct Spoke {
-    /// The higher vertex.
-    to: u32,
+    ends: [u32; 2],
     half_edge: HalfEdge,
-    /// Whether it runs to the higher vertex.
-    up: bool,
 }
 
-/// Half-edges by their lower ends, vertex by vertex.
-struct Buckets {
-    starts: Vec<usize>,
-    entries: Vec<Spoke>,
-}
-
-impl Buckets {
-    fn chunks(&self) -> impl Iterator<Item = &[Spoke]> {
-        self.starts.windows(2).map(|w| &self.entries[w[0]..w[1]])
+/// The spokes by their lower (0) or higher (1) end, in the order in which they come where that is the same.
+fn by_end(spokes: &[Spoke], end: usize, vertices: usize) -> Vec<Spoke> {
+    let mut free = vec![0; vertices + 1];
+    spokes.iter().for_each(|s| free[s.ends[end] as usize + 1] += 1);
+    for v in 1..free.len() {
+        free[v] += free[v - 1];
     }
+    let mut sorted = spokes.to_vec();
+    for spoke in spokes {
+        let place = &mut free[spoke.ends[end] as usize];
+        sorted[*place] = *spoke;
+        *place += 1;
+    }
+    sorted
 }
 
 fn bad_faces(faces: &[Face], vertices: usize) -> Vec<Violation> {
-    let bad = |f: &Face| {
-        let v = f.vertices();
-        v.iter().enumerate().any(|(i, &a)| a as usize >= vertices || v[..i].contains(&a))
+    let repeats = |f: &Face| match *f {
+        Face::Triangle([a, b, c]) => a == b || b == c || c == a,
+        Face::Quad([a, b, c, d]) => a == b || b == c || c == d || d == a || a == c || b == d,
     };
+    let bad = |f: &Face| repeats(f) || f.vertices().iter().any(|&v| v as usize >= vertices);
     let numbered = (0..).zip(faces);
     numbered.filter(|(_, f)| bad(f)).map(|(face, _)| Violation::BadFace { face }).collect()
 }

@@ -14,8 +14,10 @@ pub fn structural(arrangement: &Arrangement) -> Vec<Difference> {
     let mut differences: Vec<Difference> = edges.iter().map(|e| length(arrangement, e)).collect();
     let dummies =
         |edge: &Edge| [false, true].map(|upwards| dummy(arrangement, edge, upwards)).into_iter().flatten().flatten();
-    differences.par_extend(edges.par_iter().with_min_len(512).flat_map_iter(dummies));
-    differences.sort_unstable_by_key(|d| (d.low, d.high, d.gap));
+    // A level of a dummy vertex that is that of a side around it is below and above itself.
+    let between = |d: &Difference| d.low != d.high;
+    differences.par_extend(edges.par_iter().with_min_len(512).flat_map_iter(dummies).filter(between));
+    differences.sort_unstable_by_key(Difference::rank);
     differences.dedup();
     differences
 }

@@ -21,7 +21,7 @@ use crate::error::Result;
 use crate::layout::Counts;
 use crate::structure::{Arrangement, Placement, Structure};
 use constraints::structural;
-use pairs::{candidates, near_corners};
+use pairs::{Linked, candidates, near_corners};
 
 /// One round of Algorithm 1.
 #[derive(Clone, Debug, PartialEq, serde::Serialize)]
@@ -48,6 +48,13 @@ struct Step {
     levels: Vec<i64>,
 }
 
+impl Step {
+    fn counted(&self, counts: Counts) -> Round {
+        let Self { lambda, pairs, alignments, ref levels } = *self;
+        Round { lambda, pairs, alignments, counts, levels: levels.clone() }
+    }
+}
+
 /// Where Algorithm 1 ended.
 pub struct Outcome<'a> {
     structure: &'a Structure,
@@ -55,6 +62,8 @@ pub struct Outcome<'a> {
     pub placement: Placement,
     /// The alignments found.
     pub classes: Classes,
+    /// The distances that keep the placement a polycube.
+    structural: Vec<Difference>,
     /// What happened on the way.
     steps: Vec<Step>,
 }
@@ -70,12 +79,13 @@ impl<'a> Outcome<'a> {
                 classes.join(a, b);
             }
         }
-        Self { structure, placement: placement.to_vec(), classes, steps: Vec::new() }
+        let structural = structural(&Arrangement::new(structure, placement));
+        Self { structure, placement: placement.to_vec(), classes, structural, steps: Vec::new() }
     }
 
     /// The finalisation of section 6: as near to `targets` as the alignments found allow, with λ = 1.
     pub fn settle(&self, targets: &[f64], solver: &dyn Solver, context: &Context) -> Result<Placement> {
-        let differences = structural(&Arrangement::new(self.structure, &self.placement));
+        let differences = self.structural.clone();
         let demand =
             Demand { targets, classes: &self.classes, pairs: &[], halvings: 0, differences, planes: Vec::new() };
         relax(self.structure, &self.placement, demand, solver, context)
@@ -97,9 +107,7 @@ pub struct Settings<'a> {
 
 /// Aligns the corners of a valid placement, given in lattice steps.
 pub fn run<'a>(structure: &'a Structure, input: &[f64], settings: &Settings, context: &Context) -> Result<Outcome<'a>> {
-    let classes = settings.guided.classes().clone();
-    let outcome = Outcome { structure, placement: input.to_vec(), classes, steps: Vec::new() };
-    let mut state = State { input, settings, outcome, plan: None };
+    let mut state = State::new(structure, input, settings);
     for halvings in 0..=Problem::MAX_HALVINGS {
         let lambda = 0.5_f64.powi(halvings as i32);
         context.tick(f64::from(halvings) / f64::from(Problem::MAX_HALVINGS))?;
@@ -107,26 +115,50 @@ pub fn run<'a>(structure: &'a Structure, input: &[f64], settings: &Settings, con
             break;
         }
     }
-    Ok(state.outcome)
+    Ok(state.outcome())
 }
 
 /// What the present arrangement asks the next round to do.
 #[derive(Clone)]
 struct Plan {
+    /// Those of the structure first, then those of the guides.
     differences: Vec<Difference>,
+    /// How many of them are the structure's.
+    structural: usize,
     pairs: Vec<Pair>,
     planes: Vec<Linear>,
 }
 
 struct State<'a, 's> {
+    structure: &'a Structure,
     input: &'s [f64],
     settings: &'s Settings<'s>,
-    outcome: Outcome<'a>,
-    /// Kept from the last round if that changed nothing.
+    placement: Placement,
+    classes: Classes,
+    steps: Vec<Step>,
+    /// Corners that no pair joins.
+    linked: Linked,
+    /// Made for the present placement.
     plan: Option<Plan>,
 }
 
-impl State<'_, '_> {
+impl<'a, 's> State<'a, 's> {
+    fn new(structure: &'a Structure, input: &'s [f64], settings: &'s Settings<'s>) -> Self {
+        let classes = settings.guided.classes().clone();
+        let linked = Linked::new(structure);
+        Self { structure, input, settings, placement: input.to_vec(), classes, steps: Vec::new(), linked, plan: None }
+    }
+
+    fn outcome(self) -> Outcome<'a> {
+        let Self { structure, placement, classes, steps, plan, .. } = self;
+        let kept = plan.map(|mut plan| {
+            plan.differences.truncate(plan.structural);
+            plan.differences
+        });
+        let structural = kept.unwrap_or_else(|| structural(&Arrangement::new(structure, &placement)));
+        Outcome { structure, placement, classes, structural, steps }
+    }
+
     /// Pairs and aligns once; `false` when no pair is left or no smaller λ can change anything.
     fn round(&mut self, halvings: u32, context: &Context) -> Result<bool> {
         let plan = match self.plan.take() {
@@ -134,58 +166,65 @@ impl State<'_, '_> {
             None => self.make_plan(context)?,
         };
         if plan.pairs.is_empty() {
+            self.plan = Some(plan);
             return Ok(false);
         }
-        let (structure, before) = (self.outcome.structure, &self.outcome.placement);
         let demand = Demand {
             targets: self.input,
-            classes: &self.outcome.classes,
+            classes: &self.classes,
             pairs: &plan.pairs,
             halvings,
             differences: plan.differences.clone(),
             planes: plan.planes.clone(),
         };
-        let placement = relax(structure, before, demand, self.settings.solver, context)?;
-        let moved = placement != *before;
-        self.outcome.placement = placement;
+        let placement = relax(self.structure, &self.placement, demand, self.settings.solver, context)?;
+        let moved = placement != self.placement;
+        self.placement = placement;
         let alignments = self.keep(&plan.pairs);
         let lambda = 0.5_f64.powi(halvings as i32);
-        let levels = to_integers(&self.outcome.placement);
-        self.outcome.steps.push(Step { lambda, pairs: plan.pairs.len(), alignments, levels });
+        let levels = to_integers(&self.placement);
+        self.steps.push(Step { lambda, pairs: plan.pairs.len(), alignments, levels });
         self.plan = (!moved && alignments == 0).then_some(plan);
         Ok(alignments > 0 || lambda * self.pull() >= 1.0)
     }
 
     fn make_plan(&self, context: &Context) -> Result<Plan> {
-        let arrangement = Arrangement::new(self.outcome.structure, &self.outcome.placement);
-        let (mut differences, near) = rayon::join(|| structural(&arrangement), || near_corners(&arrangement, context));
-        differences.extend(self.settings.guided.differences(arrangement.placement()));
-        let pairs = candidates(&arrangement, &near?, &self.outcome.classes, &differences);
+        let (structure, placement) = (self.structure, &self.placement);
+        let distances = || {
+            let arrangement = Arrangement::new(structure, placement);
+            let differences = structural(&arrangement);
+            (arrangement, differences)
+        };
+        let (near, (arrangement, mut differences)) =
+            rayon::join(|| near_corners(structure, placement, &self.linked, context), distances);
+        let structural = differences.len();
+        differences.extend(self.settings.guided.differences(placement));
+        let pairs = candidates(&arrangement, &near?, &self.classes, &differences);
         let planes = if self.settings.oblique_planes {
             pairs.iter().flat_map(|p| self.oblique(p)).collect()
         } else {
             Vec::new()
         };
-        Ok(Plan { differences, pairs, planes })
+        Ok(Plan { differences, structural, pairs, planes })
     }
 
     /// Joins the levels of every pair that came together.
     fn keep(&mut self, pairs: &[Pair]) -> usize {
-        let (structure, placement) = (self.outcome.structure, &self.outcome.placement);
+        let (structure, placement) = (self.structure, &self.placement);
         let met = |[a, b]: &[u32; 2]| placement[*a as usize] == placement[*b as usize];
-        let classes = &mut self.outcome.classes;
+        let classes = &mut self.classes;
         pairs.iter().map(|p| p.levels(structure)).filter(met).filter(|&[a, b]| classes.join(a, b)).count()
     }
 
     /// An upper bound of what moving every level by its present displacement costs in E_shape. Once λ times this
     /// is under the least change of the integer E_align, a smaller λ changes nothing.
     fn pull(&self) -> f64 {
-        let levels = self.outcome.structure.levels.iter().zip(self.input).zip(&self.outcome.placement);
+        let levels = self.structure.levels.iter().zip(self.input).zip(&self.placement);
         levels.map(|((l, t), x)| f64::from(l.corners) * (x - t) * (x - t)).sum()
     }
 
     fn position(&self, corner: u32) -> [f64; 3] {
-        self.outcome.structure.position(corner, &self.outcome.placement)
+        self.structure.position(corner, &self.placement)
     }
 
     fn difference_of(&self, pair: &Pair) -> [f64; 3] {
@@ -200,7 +239,7 @@ impl State<'_, '_> {
         let [p, q] = pair.corners.map(|c| self.position(c));
         let middle: f64 = (0..3).map(|k| normal[k] * f64::midpoint(p[k], q[k])).sum();
         let side = |corner: u32, sign: f64| {
-            let levels = self.outcome.structure.corners[corner as usize].levels;
+            let levels = self.structure.corners[corner as usize].levels;
             let terms = (0..3).filter(|&k| normal[k] != 0.0).map(|k| (levels[k], sign * normal[k])).collect();
             Linear { terms, at_least: sign * middle + 0.5 }
         };

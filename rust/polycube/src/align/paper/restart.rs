@@ -53,38 +53,37 @@ pub fn descend(task: &Task, targets: &[f64], placing: &Guided, context: &Context
         Settings { lambda_min: task.options.lambda_min, solver: &*solver, guided: &task.guided, oblique_planes };
     let place = |order: &[f64]| place_in_order(structure, &Ranks::new(structure, order), targets, placing);
     let mut best = place(&task.start)?;
-    let mut judge = Judge::new(structure);
-    let mut after = if task.start == task.input { task.before } else { judge.counts_of(&task.start) };
+    let unchanged = task.start == task.input;
+    let mut after = if unchanged { task.before } else { Judge::new(structure).counts_of(&task.start) };
     let mut taken = Vec::new();
     let mut from = task.start.clone();
     loop {
         let (found, steps) = improve(task, &from, &settings, context)?;
-        let counts = found.as_ref().map(|f| judge.counts_of(f));
-        let improved = counts.filter(|c| c.blocks_padded < after.blocks_padded);
+        let improved = found.filter(|(_, counts)| counts.blocks_padded < after.blocks_padded);
         if taken.is_empty() || improved.is_some() {
             taken.extend(steps);
         }
-        let (Some(found), Some(counts)) = (found, improved) else { break };
+        let Some((found, counts)) = improved else { break };
         best = place(&found)?;
         from = best.iter().map(|&x| x as f64).collect();
         after = counts;
     }
-    Ok(Descent { levels: best, after, rounds: counted(structure, taken) })
+    Ok(Descent { levels: best, after, rounds: counted(structure, &taken) })
 }
+
+/// A valid placement with what it counts.
+type Counted = (Placement, Counts);
 
 /// One run of Algorithm 1 on `from`, settled near the start or, if only that is as coarse, near `from`; nothing if the guides do
 /// not allow where it ends.
-fn improve(
-    task: &Task,
-    from: &[f64],
-    settings: &Settings,
-    context: &Context,
-) -> Result<(Option<Placement>, Vec<Step>)> {
+fn improve(task: &Task, from: &[f64], settings: &Settings, context: &Context) -> Result<(Option<Counted>, Vec<Step>)> {
     let structure = task.structure;
     let own = Unit::of(structure, from).apply(structure, from);
     let outcome = run(structure, &own, settings, context)?;
-    let settle = |targets: &[f64]| -> Result<Option<Placement>> {
-        Ok(guided(task, outcome.settle(targets, settings.solver, context)?))
+    let settle = |targets: &[f64]| -> Result<Option<Counted>> {
+        let found = guided(task, outcome.settle(targets, settings.solver, context)?);
+        let counts = found.as_ref().map(|placement| Judge::new(structure).counts_of(placement));
+        Ok(found.zip(counts))
     };
     if from == task.start {
         return Ok((settle(&own)?, outcome.steps));
@@ -92,8 +91,7 @@ fn improve(
     let original = Unit::of(structure, &task.start).apply(structure, &task.start);
     let (near, faithful) = rayon::join(|| settle(&own), || settle(&original));
     let (near, faithful) = (near?, faithful?);
-    let mut judge = Judge::new(structure);
-    let mut blocks = |p: &Option<Placement>| p.as_ref().map_or(usize::MAX, |p| judge.counts_of(p).blocks_padded);
+    let blocks = |found: &Option<Counted>| found.as_ref().map_or(usize::MAX, |(_, counts)| counts.blocks_padded);
     let coarser = blocks(&faithful) <= blocks(&near);
     Ok((if coarser { faithful } else { near }, outcome.steps))
 }
@@ -109,12 +107,13 @@ fn guided(task: &Task, found: Placement) -> Option<Placement> {
     (allowed(&averaged) && is_valid(&Arrangement::new(structure, &averaged))).then_some(averaged)
 }
 
-/// The steps with what their results count.
-fn counted(structure: &Structure, steps: Vec<Step>) -> Vec<Round> {
-    let round = |judge: &mut Judge, step: Step| {
-        let Step { lambda, pairs, alignments, levels } = step;
-        let placement: Placement = levels.iter().map(|&x| x as f64).collect();
-        Round { lambda, pairs, alignments, counts: judge.counts_of(&placement), levels }
+/// The steps with what their results count. Steps in a row with one result are counted together.
+fn counted(structure: &Structure, steps: &[Step]) -> Vec<Round> {
+    let rounds = |judge: &mut Judge, steps: &[Step]| {
+        let placement: Placement = steps[0].levels.iter().map(|&x| x as f64).collect();
+        let counts = judge.counts_of(&placement);
+        steps.iter().map(|step| step.counted(counts)).collect::<Vec<Round>>()
     };
-    steps.into_par_iter().map_init(|| Judge::new(structure), round).collect()
+    let results: Vec<&[Step]> = steps.chunk_by(|a, b| a.levels == b.levels).collect();
+    results.into_par_iter().map_init(|| Judge::new(structure), rounds).flatten().collect()
 }

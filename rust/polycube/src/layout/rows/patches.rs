@@ -46,11 +46,12 @@ impl<R: Word> Rows<R> {
         for row in self.size[0] + 1..self.solid.len() {
             mark(&mut marked, flat, row, self.size[0], [corner(row); 3]);
         }
+        let mut count = ones(&marked);
         loop {
-            let before = ones(&marked);
             let rows = kinds.iter().enumerate().skip(self.size[0] + 1);
             rows.clone().chain(rows.rev()).for_each(|(row, &kind)| self.pass_on(&mut marked, flat, row, kind));
-            if ones(&marked) == before {
+            let before = std::mem::replace(&mut count, ones(&marked));
+            if count == before {
                 return marked;
             }
         }
@@ -72,7 +73,9 @@ impl<R: Word> Rows<R> {
         if (marked[0][row] | marked[1][row] | marked[1][row - 1] | marked[2][row] | marked[2][row - nj]).is_zero() {
             return;
         }
-        marked[0][row] = straight(marked[0][row], flat[0][row], corner | on_edge);
+        if !marked[0][row].is_zero() {
+            marked[0][row] = straight(marked[0][row], flat[0][row], corner | on_edge);
+        }
         let meets = [
             marked[0][row] | marked[0][row] << 1,
             marked[1][row] | marked[1][row - 1],

@@ -12,7 +12,7 @@ const UNKNOWN: u32 = u32::MAX;
 /// How many insertions pass between two reports.
 const REPORT: usize = 512;
 
-/// Four vertices of positive volume and the cell opposite each. In a cell with the vertex at infinity
+/// Four vertices of positive volume and the cell opposite each. In a cell with the vertex at infinity, which is its first,
 /// every point outside the hull's facet would give a positive volume in its place.
 #[derive(Clone, Copy)]
 struct Cell {
@@ -38,8 +38,18 @@ pub(super) fn tetrahedra(points: &[Point], frame: [u32; 4], order: &[u32], conte
         }
         delaunay.insert(p)?;
     }
-    let cells = delaunay.cells.iter().map(|c| c.vertices);
-    Ok(cells.filter(|v| !v.contains(&INFINITE)).collect())
+    Ok(delaunay.cells.iter().filter(|c| !c.is_infinite()).map(|c| c.vertices).collect())
+}
+
+impl Cell {
+    fn is_infinite(&self) -> bool {
+        self.vertices[0] == INFINITE
+    }
+}
+
+/// Where `wanted` is among four numbers, 0 if it is not. Looks at all, as a guess where to stop is mostly wrong.
+fn position(of: &[u32; 4], wanted: u32) -> usize {
+    (1..4).fold(0, |found, i| if of[i] == wanted { i } else { found })
 }
 
 struct Delaunay<'a> {
@@ -61,15 +71,18 @@ struct Delaunay<'a> {
 
 impl<'a> Delaunay<'a> {
     fn new(points: &'a [Point], frame: [u32; 4]) -> Self {
-        let mut cells = vec![Cell { vertices: frame, neighbours: [1, 2, 3, 4], seen: 0 }];
+        // There are about seven to a point.
+        let mut cells = Vec::with_capacity(8 * points.len());
+        cells.push(Cell { vertices: frame, neighbours: [1, 2, 3, 4], seen: 0 });
         for i in 0..4 {
             let mut vertices = frame;
             let mut neighbours = [1, 2, 3, 4];
             vertices[i] = INFINITE;
             neighbours[i] = 0;
             // Seen from outside a facet turns the other way.
-            vertices.swap((i + 1) % 4, (i + 2) % 4);
-            neighbours.swap((i + 1) % 4, (i + 2) % 4);
+            let turned = if i == 0 { (1, 2) } else { (0, i) };
+            vertices.swap(turned.0, turned.1);
+            neighbours.swap(turned.0, turned.1);
             cells.push(Cell { vertices, neighbours, seen: 0 });
         }
         Self {
@@ -112,7 +125,7 @@ impl<'a> Delaunay<'a> {
         let (mut from, mut at) = (INFINITE, self.last);
         for _ in 0..self.cells.len() {
             let cell = self.cell(at);
-            if cell.vertices.contains(&INFINITE) {
+            if cell.is_infinite() {
                 return Ok(at);
             }
             let leads = |&i: &usize| cell.neighbours[i] != from && self.side(cell.vertices, i, p) < 0;
@@ -127,10 +140,10 @@ impl<'a> Delaunay<'a> {
     /// Whether `p` lies in the perturbed circumsphere of cell `c`, or sees the facet if it is infinite.
     fn conflicts(&self, c: u32, p: u32) -> bool {
         let cell = self.cell(c);
-        if let Some(i) = cell.vertices.iter().position(|&v| v == INFINITE) {
-            return match self.side(cell.vertices, i, p) {
+        if cell.is_infinite() {
+            return match self.side(cell.vertices, 0, p) {
                 // In the facet's plane its circle decides, which is where any sphere through it cuts.
-                0 => self.conflicts(cell.neighbours[i], p),
+                0 => self.conflicts(cell.neighbours[0], p),
                 side => side > 0,
             };
         }
@@ -165,16 +178,16 @@ impl<'a> Delaunay<'a> {
         let mut next = 0;
         while let Some(&c) = self.cavity.get(next) {
             next += 1;
-            for i in 0..4 {
-                let beyond = self.cell(c).neighbours[i];
-                if self.cell(beyond).seen < self.round {
-                    let out = !self.conflicts(beyond, p);
-                    self.cells[beyond as usize].seen = self.round + u32::from(out);
-                    if !out {
+            for (i, beyond) in self.cell(c).neighbours.into_iter().enumerate() {
+                let mut seen = self.cell(beyond).seen;
+                if seen < self.round {
+                    seen = self.round + u32::from(!self.conflicts(beyond, p));
+                    self.cells[beyond as usize].seen = seen;
+                    if seen == self.round {
                         self.cavity.push(beyond);
                     }
                 }
-                if self.cell(beyond).seen > self.round {
+                if seen > self.round {
                     self.rim.push((c, i));
                 }
             }
@@ -189,7 +202,7 @@ impl<'a> Delaunay<'a> {
         }
         for &(c, i) in &rim {
             let new = self.cell(c).neighbours[i];
-            for j in 0..4 {
+            for j in (0..4).filter(|&j| j != i) {
                 if self.cell(new).neighbours[j] == UNKNOWN {
                     let (other, k) = self.around(c, i, j);
                     self.cells[new as usize].neighbours[j] = other;
@@ -206,25 +219,22 @@ impl<'a> Delaunay<'a> {
 
     /// Makes the cell of `p` and the facet opposite vertex `i` of `c`; `c` points to it from then on.
     fn join(&mut self, c: u32, i: usize, p: u32) {
-        let mut cell = *self.cell(c);
-        let outer = cell.neighbours[i];
-        cell.vertices[i] = p;
-        cell.neighbours = [UNKNOWN; 4];
-        cell.neighbours[i] = outer;
-        cell.seen = 0;
+        let Cell { vertices, neighbours, .. } = *self.cell(c);
+        let outer = neighbours[i];
         let new = self.free.pop().unwrap_or(self.cells.len() as u32);
-        match self.cells.get_mut(new as usize) {
-            Some(old) => *old = cell,
-            None => self.cells.push(cell),
+        if new as usize == self.cells.len() {
+            self.cells.push(Cell { vertices, neighbours, seen: 0 });
         }
-        let beyond = &mut self.cells[outer as usize];
-        if let Some(back) = beyond.neighbours.iter_mut().find(|n| **n == c) {
-            *back = new;
-        }
-        self.cells[c as usize].neighbours[i] = new;
-        if !cell.vertices.contains(&INFINITE) {
+        let cell = &mut self.cells[new as usize];
+        *cell = Cell { vertices, neighbours: [UNKNOWN; 4], seen: 0 };
+        cell.vertices[i] = p;
+        cell.neighbours[i] = outer;
+        if !cell.is_infinite() {
             self.last = new;
         }
+        let beyond = &mut self.cells[outer as usize].neighbours;
+        beyond[position(beyond, c)] = new;
+        self.cells[c as usize].neighbours[i] = new;
     }
 
     /// The new cell on the other side of the facet that `p` spans with the edge opposite vertices `i`
@@ -238,15 +248,8 @@ impl<'a> Delaunay<'a> {
             if beyond.seen != self.round {
                 return (next, keep);
             }
-            let pivot = cell.vertices[keep];
-            for k in 0..4 {
-                if beyond.neighbours[k] == at {
-                    keep = k;
-                }
-                if beyond.vertices[k] == pivot {
-                    out = k;
-                }
-            }
+            out = position(&beyond.vertices, cell.vertices[keep]);
+            keep = position(&beyond.neighbours, at);
             at = next;
         }
     }

@@ -55,25 +55,29 @@ pub fn neighbours(points: &[[i64; 3]], context: &Context) -> Result<Vec<[u32; 2]
 fn edges(cells: &[[u32; 4]], count: usize) -> Vec<[u32; 2]> {
     const CORNERS: [[usize; 2]; 6] = [[0, 1], [0, 2], [0, 3], [1, 2], [1, 3], [2, 3]];
     let all = cells.iter().flat_map(|c| CORNERS.map(|[i, j]| [c[i].min(c[j]), c[i].max(c[j])]));
-    let (seconds, ends) = grouped(all.filter(|&[_, b]| (b as usize) < count), count);
-    let mut edges: Vec<[u32; 2]> = Vec::with_capacity(8 * count);
+    ascending(all.filter(|&[_, b]| (b as usize) < count), count)
+}
+
+/// The pairs of numbers below `count`, ascending, each once: sorting many short lists is faster than sorting all the pairs.
+fn ascending(pairs: impl Iterator<Item = [u32; 2]> + Clone, count: usize) -> Vec<[u32; 2]> {
+    let (seconds, ends) = grouped(pairs, count);
+    let mut ascending: Vec<[u32; 2]> = Vec::with_capacity(8 * count);
     let mut last_first = vec![u32::MAX; count];
     let mut start = 0;
     for (a, &end) in (0..).zip(&ends) {
-        let own = edges.len();
+        let own = ascending.len();
         for &b in &seconds[start..end] {
             if std::mem::replace(&mut last_first[b as usize], a) != a {
-                edges.push([a, b]);
+                ascending.push([a, b]);
             }
         }
-        edges[own..].sort_unstable();
+        ascending[own..].sort_unstable_by_key(|pair| pair[1]);
         start = end;
     }
-    edges
+    ascending
 }
 
-/// The second members of the pairs grouped by the first, and where each group ends: sorting many short
-/// lists is faster than sorting all the pairs.
+/// The second members of the pairs grouped by the first, and where each group ends.
 fn grouped(pairs: impl Iterator<Item = [u32; 2]> + Clone, count: usize) -> (Vec<u32>, Vec<usize>) {
     let mut ends = vec![0; count];
     pairs.clone().for_each(|[a, _]| ends[a as usize] += 1);
@@ -89,7 +93,7 @@ fn grouped(pairs: impl Iterator<Item = [u32; 2]> + Clone, count: usize) -> (Vec<
     (seconds, ends)
 }
 
-/// From edges between sites to pairs of points.
+/// From edges between sites to pairs of points, ascending.
 fn spread(sites: &Sites, edges: &[[u32; 2]]) -> Vec<[u32; 2]> {
     let mut pairs = Vec::with_capacity(edges.len());
     for &[a, b] in edges {
@@ -104,6 +108,5 @@ fn spread(sites: &Sites, edges: &[[u32; 2]]) -> Vec<[u32; 2]> {
             pairs.extend(members[i + 1..].iter().map(|&q| [p, q]));
         }
     }
-    pairs.sort_unstable();
-    pairs
+    ascending(pairs.iter().copied(), sites.count())
 }

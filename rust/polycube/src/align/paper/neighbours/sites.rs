@@ -43,6 +43,11 @@ impl Sites {
         self.starts.len() - 1
     }
 
+    /// How many points there are at all sites.
+    pub fn count(&self) -> usize {
+        self.members.len()
+    }
+
     /// The points at a site, ascending.
     pub fn members(&self, site: usize) -> &[u32] {
         &self.members[self.starts[site]..self.starts[site + 1]]
