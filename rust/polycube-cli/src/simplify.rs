@@ -201,6 +201,7 @@ impl Args {
             max_displacement: self.max_displacement,
             max_distortion: self.max_distortion,
             guides: Guides::default(),
+            keep_flipped: false,
             tolerance: self.mesh.tolerance.get(),
         }
     }

@@ -10,6 +10,7 @@ use crate::structure::{Arrangement, Deviation, Polycube, Tolerance, Violation};
 use std::time::Instant;
 
 mod front;
+mod untangle;
 
 pub use front::Located;
 
@@ -50,6 +51,8 @@ pub struct Options {
     pub max_distortion: Option<f64>,
     /// Facets that must not move, that must or must not align, planes of symmetry.
     pub guides: Guides,
+    /// Whether the strategy `best`, too, leaves elements as they are that the morph turned over, as the paper does.
+    pub keep_flipped: bool,
     /// How far the input may be from a polycube.
     pub tolerance: Tolerance,
 }
@@ -324,7 +327,11 @@ fn finish(
     let mut result = None;
     if report.valid {
         let placement: Vec<f64> = levels.iter().map(|&x| x as f64).collect();
-        let mesh = fit(&polycube, input.polycube, &placement, report.scale, &context.stage("morph", 0.0, 0.9))?;
+        let mut mesh = fit(&polycube, input.polycube, &placement, report.scale, &context.stage("morph", 0.0, 0.6))?;
+        if report.strategy == Strategy::Best && !options.keep_flipped {
+            let shape = input.shape.unwrap_or(input.polycube);
+            untangle::untangle(&polycube, &mut mesh, shape, &context.stage("untangle", 0.6, 0.9))?;
+        }
         judge(&mut report, input, &polycube, &mesh, &context.stage("judge", 0.9, 1.0))?;
         result = Some(mesh);
     }

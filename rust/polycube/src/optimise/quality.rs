@@ -5,7 +5,7 @@ use crate::mesh::{Cells, Mesh, Point};
 use nalgebra::Matrix3;
 
 /// Each corner of a hexahedron in VTK's order with its three neighbours, in a right-handed order.
-pub(super) const HEX_CORNERS: [[usize; 4]; 8] =
+pub(crate) const HEX_CORNERS: [[usize; 4]; 8] =
     [[0, 1, 3, 4], [1, 2, 0, 5], [2, 3, 1, 6], [3, 0, 2, 7], [4, 7, 5, 0], [5, 4, 6, 1], [6, 5, 7, 2], [7, 6, 4, 3]];
 
 /// Faces of a hexahedron, counter-clockwise seen from outside.

@@ -105,7 +105,8 @@ pub fn remesh(input: &Input, options: &RemeshOptions, context: &Context) -> Resu
 /// How the polycube is simplified: for hexahedra it is padded blocks that count, whatever the cells of the polycube are.
 fn simplifying(options: &RemeshOptions) -> simplify::Options {
     let blocks = (!options.surface_only).then_some(Objective::BlocksPadded);
-    simplify::Options { objective: options.simplify.objective.or(blocks), ..options.simplify.clone() }
+    let objective = options.simplify.objective.or(blocks);
+    simplify::Options { objective, keep_flipped: true, ..options.simplify.clone() }
 }
 
 /// Inverted hexahedra, whether the mesh is poorer than promised, how far from the shape if farther than asked for, and how bad its
