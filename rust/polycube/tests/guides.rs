@@ -339,7 +339,10 @@ proptest! {
                 if strategy == Strategy::Paper {
                     let result = one.polycube.as_ref().expect("a valid polycube");
                     let again = Options { scale: Some(1.0), ..options(strategy, guides.clone()) };
-                    let twice = simplify(result, &again).expect("its own result");
+                    // Some of its faces may be turned over, so their normals do not tell their labels.
+                    let labels = common::labels(&one.input);
+                    let input = Input { polycube: result, shape: None, labels: Some(&labels) };
+                    let twice = polycube::simplify::simplify(&input, &again, &Context::default()).expect("its own result");
                     prop_assert_eq!(&twice.levels, &one.levels, "a second run changes nothing");
                 }
             }
