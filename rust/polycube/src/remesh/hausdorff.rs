@@ -79,7 +79,7 @@ fn vertex_distances(mesh: &Mesh, faces: &[Face], index: &Nearest<3>, context: &C
 }
 
 /// Points of a face beside its vertices.
-fn samples(mesh: &Mesh, face: &Face) -> Vec<Point> {
+pub(super) fn samples(mesh: &Mesh, face: &Face) -> Vec<Point> {
     let at = |v: u32| mesh.points[v as usize];
     match *face {
         Face::Triangle(t) => {
