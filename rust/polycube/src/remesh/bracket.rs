@@ -35,8 +35,8 @@ impl Bracket {
     pub(super) fn middle(&self, front: &[TradeOff]) -> Option<usize> {
         let middle = (self.low + self.high) / 2;
         let blocks = |at: usize| front[at].count as f64;
-        let worth = !self.found || blocks(self.low) < (1.0 - SAVED) * blocks(self.high);
-        (middle > self.low && worth).then_some(middle)
+        let worth = || !self.found || blocks(self.low) < (1.0 - SAVED) * blocks(self.high);
+        (middle > self.low && worth()).then_some(middle)
     }
 }
 
@@ -70,6 +70,13 @@ mod tests {
         assert_eq!(bracket.middle(&front()), Some(9));
         bracket.wrong(9);
         assert_eq!(bracket.middle(&front()), None);
+    }
+
+    #[test]
+    fn without_a_front_there_is_no_middle() {
+        let mut bracket = Bracket::new(0, 0);
+        bracket.right(0);
+        assert_eq!(bracket.middle(&[]), None);
     }
 
     #[test]

@@ -161,7 +161,7 @@ impl<'a> Choice<'a> {
         let after = report.after.filter(|_| report.chosen != first.chosen);
         if let (Some(ours), Some(least)) = (after, first.after) {
             let note = format!(
-                "{} blocks instead of {}: fewer made bad hexahedra; a limit on the displacement or a simplicity chooses otherwise",
+                "{} blocks instead of {}: fewer made bad hexahedra or a mesh too far from the shape; a limit on the displacement or a simplicity chooses otherwise",
                 ours.blocks_padded, least.blocks_padded
             );
             report.notes.push(note);
