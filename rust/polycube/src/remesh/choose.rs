@@ -1,5 +1,7 @@
-//! Which of the simplified polycubes is meshed: the coarsest one that a quick coarse mesh finds good.
+//! Which of the simplified polycubes is meshed: the coarsest one that a quick coarse mesh finds good, or one with more blocks if the fine
+//! mesh of that is not.
 
+use super::bracket::Bracket;
 use super::pipeline::RemeshOptions;
 use super::start::Start;
 use crate::context::Context;
@@ -7,27 +9,37 @@ use crate::error::Result;
 use crate::simplify::{Input, Simplified};
 
 /// A mesh whose worst scaled Jacobian is this is good: the least that Verdict's manual calls acceptable for hexahedra.
-const GOOD: f64 = 0.5;
+pub(super) const GOOD: f64 = 0.5;
 /// A mesh with more blocks must be better by this, worst and average in sum, to be taken instead of another poor one.
-const WORTH: f64 = 0.05;
+pub(super) const WORTH: f64 = 0.05;
 /// Corners move at most this part as far in the next point of the front that is tried.
 const CLOSER: f64 = 0.71;
-/// A fine mesh whose worst scaled Jacobian is less than this part of what its coarse one promised went wrong.
-const KEPT: f64 = 0.8;
 /// So many tries in a row that are no better end the trying.
 const MISSES: usize = 2;
 /// Points of the front of which coarse meshes are made.
 const TRIES: usize = 6;
 /// Points of the front that are meshed finely as long as the best of them is not inverted.
-const MESHED: usize = 4;
+const MESHED: usize = 5;
 
-/// What is wrong with the best mesh so far.
-#[derive(Clone, Copy, PartialEq, Eq)]
+/// What is wrong with a mesh.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Wrong {
     /// It has inverted hexahedra.
     Inverted,
     /// It is farther from the shape than asked for.
     Far,
+    /// Its worst hexahedron is poor.
+    Poor,
+}
+
+/// How a mesh turned out.
+pub(super) struct Verdict {
+    /// The point of the front.
+    pub(super) at: usize,
+    /// What is wrong with it.
+    pub(super) wrong: Option<Wrong>,
+    /// Whether even the best mesh so far has inverted hexahedra.
+    pub(super) inverted: bool,
 }
 
 /// Candidates to be meshed, the one that promises most first.
@@ -42,6 +54,8 @@ pub(super) struct Choice<'a> {
     left: Vec<usize>,
     /// How many were handed out.
     taken: usize,
+    /// Where the one with the fewest blocks whose fine mesh is right may lie.
+    bracket: Bracket,
 }
 
 impl<'a> Choice<'a> {
@@ -59,12 +73,16 @@ impl<'a> Choice<'a> {
     ) -> Result<Self> {
         let left = others(&found, options);
         let share = 1.0 / (left.len() + 1) as f64;
-        let start = Start::new(input, found.clone(), options, &context.stage("map", 0.0, share))?;
-        let mut choice = Self { input, options, first: found, tried: vec![start], left, taken: 0 };
+        let chosen = found.report.chosen.unwrap_or(0);
+        let bracket = Bracket::new(chosen, if left.is_empty() { chosen } else { found.report.front.len() });
+        let start = Start::new(input, found.clone(), options, !left.is_empty(), &context.stage("map", 0.0, share))?;
+        let mut choice = Self { input, options, first: found, tried: vec![start], left, taken: 0, bracket };
         while choice.is_worth_trying() {
             let k = choice.tried.len() as f64;
-            let next = choice.start(&context.stage("map", k * share, (k + 1.0) * share))?;
-            choice.tried.extend(next);
+            let index = choice.left.remove(0);
+            let next =
+                choice.start(index, !choice.left.is_empty(), &context.stage("map", k * share, (k + 1.0) * share))?;
+            choice.tried.push(next);
         }
         Ok(choice)
     }
@@ -77,42 +95,64 @@ impl<'a> Choice<'a> {
         !self.left.is_empty() && worst < GOOD && (worst <= 0.0 || best(lately) > best(before) + WORTH)
     }
 
-    /// The next point of the front; from the third mesh on the middle one of those left, as such a shape has a long way to go.
-    fn nearer(&mut self, context: &Context) -> Result<Option<Start>> {
-        if self.taken > 2 {
-            self.left.drain(..self.left.len().saturating_sub(1) / 2);
-        }
-        self.start(context)
+    /// What a mesh of the given point of the front is made from, if it is one of `several` with no coarse mesh where that is in vain.
+    fn start(&self, index: usize, several: bool, context: &Context) -> Result<Start> {
+        let found = self.first.at_index(self.input, index, context)?;
+        Start::new(self.input, found, self.options, several, context)
     }
 
-    /// The next point of the front that was not tried.
-    fn start(&mut self, context: &Context) -> Result<Option<Start>> {
-        if self.left.is_empty() {
-            return Ok(None);
-        }
-        let found = self.first.at_index(self.input, self.left.remove(0), context)?;
-        Start::new(self.input, found, self.options, context).map(Some)
+    /// The first candidate: the one with the fewest blocks whose coarse mesh is good or nearly as good as the best.
+    fn most_promising(&mut self) -> Option<Start> {
+        let best = self.tried.iter().map(value).fold(f64::NEG_INFINITY, f64::max);
+        let good = |s: &Start| s.worst().is_some_and(|worst| worst >= GOOD) || value(s) >= best - WORTH;
+        // Those with fewer blocks move corners farther: what is wrong with this one is wrong with them.
+        let k = self.tried.iter().position(good)?;
+        let mut passed = self.tried.drain(..=k);
+        let start = passed.next_back();
+        let before = passed.filter_map(|s| s.simplified.report.chosen).next_back();
+        before.into_iter().for_each(|at| self.bracket.wrong(at));
+        start
     }
 
-    /// The next candidate: the one with the fewest blocks whose coarse mesh is good or nearly as good as the best; then, if the best mesh
-    /// made so far has inverted hexahedra or is too far from the shape, those that were not tried.
+    /// The first candidate. Where the coarse meshes of all others were bad and that of the input would be too coarse to tell, it is not the
+    /// input but one in the middle between them.
+    fn opening(&mut self, context: &Context) -> Result<Option<Start>> {
+        let others = self.tried.len() > 1;
+        let end = self.first.report.front.len().checked_sub(1);
+        let is_input = |s: &Start| s.simplified.report.chosen == end;
+        match self.most_promising() {
+            Some(start) if others && start.worst().is_none() && is_input(&start) => self.middle(context),
+            start => Ok(start),
+        }
+    }
+
+    /// The one in the middle of those that come into question.
+    fn middle(&self, context: &Context) -> Result<Option<Start>> {
+        let middle = self.bracket.middle(&self.first.report.front);
+        middle.map(|k| self.start(k, false, context)).transpose()
+    }
+
+    /// The next candidate, when the mesh of the point `at` of the front turned out as it did: if hexahedra were poor the next whose
+    /// coarse mesh is good, else the one in the middle of those that come into question.
     ///
     /// # Errors
     /// Those of [`Start::new`] and [`Simplified::at`].
-    pub(super) fn next(&mut self, wrong: Option<Wrong>, context: &Context) -> Result<Option<Start>> {
-        if wrong != Some(Wrong::Inverted) && self.taken >= MESHED {
+    pub(super) fn next(&mut self, last: Option<Verdict>, context: &Context) -> Result<Option<Start>> {
+        self.taken += 1;
+        let Some(Verdict { at, wrong, inverted }) = last else { return self.opening(context) };
+        match wrong {
+            None => self.bracket.right(at),
+            Some(_) => self.bracket.wrong(at),
+        }
+        if self.taken > MESHED && !inverted {
             return Ok(None);
         }
-        self.taken += 1;
-        let best = self.tried.iter().map(value).fold(f64::NEG_INFINITY, f64::max);
-        let good = |s: &Start| s.worst().is_some_and(|worst| worst >= GOOD) || value(s) >= best - WORTH;
-        match self.tried.iter().position(good) {
-            // Those with fewer blocks move corners farther: what is wrong with this one is wrong with them.
-            Some(k) => Ok(self.tried.drain(..=k).next_back()),
-            None if wrong == Some(Wrong::Far) => self.nearer(context),
-            None if wrong == Some(Wrong::Inverted) => self.start(context),
-            None => Ok(None),
+        if wrong == Some(Wrong::Poor)
+            && let Some(start) = self.most_promising()
+        {
+            return Ok(Some(start));
         }
+        self.middle(context)
     }
 
     /// Says so if a `result` is not what was found at first.
@@ -121,7 +161,7 @@ impl<'a> Choice<'a> {
         let after = report.after.filter(|_| report.chosen != first.chosen);
         if let (Some(ours), Some(least)) = (after, first.after) {
             let note = format!(
-                "{} blocks instead of {}: fewer made bad hexahedra; a limit on the displacement or a simplicity chooses otherwise",
+                "{} blocks instead of {}: fewer made bad hexahedra or a mesh too far from the shape; a limit on the displacement or a simplicity chooses otherwise",
                 ours.blocks_padded, least.blocks_padded
             );
             report.notes.push(note);
@@ -129,14 +169,14 @@ impl<'a> Choice<'a> {
     }
 }
 
-/// What the coarse mesh of a start promises: worst and average scaled Jacobian in sum, the worst as far as it is not good; nothing without one.
+/// What the coarse mesh of a start promises: worst and average scaled Jacobian in sum, the worst as far as it is not good; nothing
+/// without one, and less than nothing if it has inverted hexahedra, which may be given up half made.
 fn value(start: &Start) -> f64 {
-    start.rung.as_ref().map_or(0.0, |r| r.worst.min(GOOD) + r.average)
-}
-
-/// Whether a mesh whose worst scaled Jacobian is `worst` is as good as the `coarse` one it came from promised.
-pub(super) fn keeps_promise(worst: f64, coarse: Option<f64>) -> bool {
-    worst > 0.0 && worst >= GOOD.min(KEPT * coarse.unwrap_or(0.0))
+    let average = start.rung.as_ref().map_or(0.0, |r| r.average);
+    match start.worst() {
+        Some(worst) if worst > 0.0 => worst.min(GOOD) + average,
+        worst => worst.unwrap_or(0.0),
+    }
 }
 
 /// The points of the front to try after the one chosen: each the coarsest that moves corners clearly less far than the one before,

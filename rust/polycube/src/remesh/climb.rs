@@ -1,7 +1,7 @@
 //! From coarse lattices to fine ones: what a coarse mesh costs little to find is where a fine one starts.
 
 use super::grid::Grid;
-use super::improve::{Improved, improve};
+use super::improve::{Aim, Improved, improve};
 use super::interior::interpolate;
 use super::keys::{Keys, rank};
 use super::padding::Padding;
@@ -140,7 +140,7 @@ fn average(hexes: &Hexes) -> f64 {
 }
 
 /// The finished mesh of a lattice about half as fine, which started from one half as fine again, and so on; nothing if there
-/// is none.
+/// is none. `aim` says how hard to try.
 ///
 /// # Errors
 /// Those of [`Remesher`] and [`optimise`](crate::optimise::optimise()).
@@ -148,6 +148,7 @@ pub(super) fn climb(
     map: &Simplified,
     shape: &Mesh,
     options: &RemeshOptions,
+    aim: Aim,
     context: &Context,
 ) -> Result<Option<Rung>> {
     let maps = coarser(map, options.padding, context)?;
@@ -161,14 +162,13 @@ pub(super) fn climb(
         };
         let remesher = Remesher::new(&map, shape, &context)?;
         let mut hexes = remesher.hexes(options.padding, &context)?;
-        finish(rung, &remesher, &mut hexes, options, f64::INFINITY, &context)?;
+        finish(rung, &remesher, &mut hexes, options, aim, &context)?;
         rung = Some(Rung::new(remesher, &hexes, options.padding));
     }
     Ok(rung)
 }
 
-/// Improves `hexes`, starting from the mesh of a coarser lattice if that leads to no inverted hexahedron, else as they are; the shape shall
-/// be no farther from them than `bound`.
+/// Improves `hexes`, starting from the mesh of a coarser lattice if that leads to no inverted hexahedron, else as they are.
 ///
 /// # Errors
 /// Those of [`optimise`](crate::optimise::optimise()).
@@ -177,11 +177,11 @@ pub(super) fn finish(
     remesher: &Remesher,
     hexes: &mut Hexes,
     options: &RemeshOptions,
-    bound: f64,
+    aim: Aim,
     context: &Context,
 ) -> Result<Improved> {
     let improve =
-        |hexes: &mut Hexes| improve(remesher.simplified, hexes, remesher.shape, &options.optimise, bound, context);
+        |hexes: &mut Hexes| improve(remesher.simplified, hexes, remesher.shape, &options.optimise, aim, context);
     if let Some(rung) = rung.filter(|r| r.worst > 0.0) {
         let mut started = hexes.clone();
         rung.start(remesher, &mut started)?;

@@ -1,6 +1,7 @@
 //! Where a shape is far from the mesh that stands for it.
 
-use super::hausdorff::triangles;
+use super::hausdorff::{self, AT_ONCE, triangles};
+use crate::context::Context;
 use crate::error::Result;
 use crate::mesh::{Face, Mesh, Point};
 use crate::optimise::{Guide, Nearest};
@@ -31,12 +32,18 @@ fn middle(face: &Face, points: &[Point]) -> Point {
     Point::from(sum / corners.len() as f64)
 }
 
-/// Where samples of a shape are farther than `bound` from the surface of `mesh`, or the middles of its faces from the `shape`, the
-/// farthest first. O(n log n).
+/// Where samples of a shape are farther than `bound` from the surface of `mesh`, or those of its faces from the `shape`, the
+/// farthest first: the samples that [`hausdorff`](hausdorff::hausdorff) takes. O(n log n).
 ///
 /// # Errors
-/// Those of [`boundary`](crate::mesh::Cells::boundary).
-pub(super) fn gaps(mesh: &Mesh, (shape, samples): (&dyn Guide, &[Point]), bound: f64) -> Result<Vec<Gap>> {
+/// Those of [`boundary`](crate::mesh::Cells::boundary); [`ErrorKind::Cancelled`](crate::ErrorKind::Cancelled).
+pub(super) fn gaps(
+    mesh: &Mesh,
+    (shape, samples): (&dyn Guide, &[Point]),
+    bound: f64,
+    context: &Context,
+) -> Result<Vec<Gap>> {
+    context.tick(0.0)?;
     let faces = mesh.cells.boundary()?;
     let pieces: Vec<_> = faces.iter().flat_map(|f| triangles(mesh, f).into_iter().map(move |t| (*f, t))).collect();
     let index = Nearest::new(pieces.iter().map(|(_, t)| *t));
@@ -45,14 +52,28 @@ pub(super) fn gaps(mesh: &Mesh, (shape, samples): (&dyn Guide, &[Point]), bound:
         let distance = (foot.point - at).norm();
         (distance > bound).then_some(Gap { at: *at, distance, face: pieces[foot.index].0 })
     };
-    let back = |face: &Face| {
-        let middle = middle(face, &mesh.points);
-        let at = shape.contact(&middle).point;
-        let distance = (middle - at).norm();
-        (distance > bound).then_some(Gap { at, distance, face: *face })
-    };
-    let mut found: Vec<Gap> = samples.par_iter().filter_map(gap).collect();
-    found.par_extend(faces.par_iter().filter_map(back));
+    let mut found: Vec<Gap> = Vec::new();
+    for some in samples.chunks(AT_ONCE) {
+        context.tick(0.0)?;
+        found.par_extend(some.par_iter().filter_map(gap));
+    }
+    for some in faces.chunks(AT_ONCE) {
+        context.tick(0.0)?;
+        found.par_extend(some.par_iter().filter_map(|face| bulge(mesh, face, shape, bound)));
+    }
     found.sort_by(|a, b| b.distance.total_cmp(&a.distance));
     Ok(found)
+}
+
+/// The sample of a face that is farthest from the shape, if it is farther than `bound`. Vertices lie on the shape, so what is near one
+/// is near the shape.
+fn bulge(mesh: &Mesh, face: &Face, shape: &dyn Guide, bound: f64) -> Option<Gap> {
+    let corners = face.vertices();
+    let away = |p: &Point| corners.iter().all(|&v| (mesh.points[v as usize] - p).norm() > bound);
+    let gap = |p: Point| {
+        let at = shape.contact(&p).point;
+        Gap { at, distance: (p - at).norm(), face: *face }
+    };
+    let far = hausdorff::samples(mesh, face).into_iter().filter(away).map(gap).filter(|g| g.distance > bound);
+    far.max_by(|a, b| a.distance.total_cmp(&b.distance))
 }

@@ -7,7 +7,7 @@ use crate::optimise::Nearest;
 use rayon::prelude::*;
 
 /// Vertices or faces between two looks at the context: some milliseconds' work.
-const AT_ONCE: usize = 1024;
+pub(super) const AT_ONCE: usize = 1024;
 
 /// Sides of the grid of samples on a quadrilateral.
 const SAMPLES: usize = 4;
@@ -80,7 +80,7 @@ fn vertex_distances(mesh: &Mesh, faces: &[Face], index: &Nearest<3>, context: &C
 }
 
 /// Points of a face beside its vertices.
-fn samples(mesh: &Mesh, face: &Face) -> Vec<Point> {
+pub(super) fn samples(mesh: &Mesh, face: &Face) -> Vec<Point> {
     let at = |v: u32| mesh.points[v as usize];
     match *face {
         Face::Triangle(t) => {

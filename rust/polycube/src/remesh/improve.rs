@@ -16,14 +16,29 @@ use rayon::prelude::*;
 const PASSES: usize = 4;
 /// A pass that raised worst and average quality by less in sum is the last.
 const LEAST_GAIN: f64 = 0.015;
+/// And so is one that left more than this part of the inverted hexahedra.
+const LEFT: f64 = 0.5;
 /// How often the sizes that hexahedra should have are averaged with those around.
 const SMOOTHING: usize = 3;
 /// Most rounds of untangling after the vertices in the way were released.
 const LATE_ROUNDS: usize = 15;
+/// A trial with more than this part of its hexahedra inverted leads to nothing.
+const HOPELESS: f64 = 0.01;
 /// How often vertices of inverted hexahedra are released.
 const RELEASES: usize = 4;
 /// Hexahedra of a lower scaled Jacobian may have vertices released where the shape is smooth.
 pub(super) const POOR: f64 = 0.6;
+
+/// What a mesh is for.
+#[derive(Clone, Copy, PartialEq)]
+pub(super) enum Aim {
+    /// It is the last; the shape shall be no farther from it than this.
+    Within(f64),
+    /// A finer one starts from it.
+    Coarse,
+    /// It is one of several that show what can be had, and is given up where many hexahedra stay inverted while edges are held.
+    Trial,
+}
 
 /// What became of a mesh.
 #[derive(Clone, Copy)]
@@ -39,13 +54,13 @@ pub(super) struct Improved {
 /// Inverted ones are first untangled with the surface held, then with the edges held, so that surface vertices do not
 /// slide past each other, from where there is no way back. Vertices of inverted hexahedra may leave corners and edges for
 /// the surface around, and so may those of poor ones where the shape has no crease. Where the shape is farther
-/// than `bound` from the mesh, vertices are put on what is cut off, as far as the hexahedra stay good.
+/// from the mesh than it shall be, vertices are put on what is cut off, as far as the hexahedra stay good.
 pub(super) fn improve(
     map: &Simplified,
     hexes: &mut Hexes,
     shape: &[Point],
     settings: &Settings,
-    bound: f64,
+    aim: Aim,
     context: &Context,
 ) -> Result<Improved> {
     let slides = Slides::new(&map.input, shape, &context.stage("untangle", 0.0, 0.0))?;
@@ -53,10 +68,13 @@ pub(super) fn improve(
     context.stage("untangle", 0.0, 0.0).tick(0.0)?;
     let freedom = slides.freedoms(&hexes.sites, Hold::Corners);
     let mut job = Job { elements, guides: slides.guides(), slides: &slides, hexes, freedom, released: 0 };
-    job.untangle(settings, &context.stage("untangle", 0.0, 0.4))?;
+    job.untangle(settings, aim != Aim::Trial, &context.stage("untangle", 0.0, 0.4))?;
+    if aim == Aim::Trial && job.is_hopeless() {
+        return Ok(Improved { released: job.released, far: 0.0 });
+    }
     job.passes(settings, &context.stage("optimise", 0.4, 0.8))?;
     let mut far = 0.0;
-    if bound.is_finite() {
+    if let Aim::Within(bound) = aim {
         let settings = Settings { untangle_rounds: settings.untangle_rounds.min(LATE_ROUNDS), ..settings.clone() };
         far = job.reach(&samples(&map.input.surface, shape), bound, &settings, &context.stage("optimise", 0.8, 1.0))?;
     }
@@ -74,8 +92,9 @@ pub(super) struct Job<'a> {
 }
 
 impl Job<'_> {
-    /// Untangling alone, with more and more vertices that may move, until no hexahedron is inverted.
-    fn untangle(&mut self, settings: &Settings, context: &Context) -> Result<()> {
+    /// Untangling alone, with more and more vertices that may move, until no hexahedron is inverted; without patience only as long as
+    /// there is hope.
+    fn untangle(&mut self, settings: &Settings, patient: bool, context: &Context) -> Result<()> {
         let first = Settings {
             untangle_rounds: 8,
             untangle_iterations: 50,
@@ -90,6 +109,9 @@ impl Job<'_> {
                 return Ok(());
             }
         }
+        if !patient && self.is_hopeless() {
+            return Ok(());
+        }
         let short = Settings { untangle_rounds: 12, ..first };
         for round in 0..RELEASES {
             let part = 0.6 + 0.4 * round as f64 / RELEASES as f64;
@@ -99,6 +121,13 @@ impl Job<'_> {
             self.release(0.0, |_, _, _| true);
         }
         Ok(())
+    }
+
+    /// Whether many hexahedra are inverted.
+    fn is_hopeless(&self) -> bool {
+        let cells = cells_of(self.hexes);
+        let inverted = cells.iter().filter(|c| scaled_jacobian(&self.hexes.mesh.points, c) <= 0.0).count();
+        inverted as f64 > HOPELESS * cells.len() as f64
     }
 
     /// Puts every surface vertex on what it slides on.
@@ -144,7 +173,8 @@ impl Job<'_> {
             let context = context.stage("optimise", from, to);
             let done = optimise(points, &self.elements, &self.freedom, &self.guides, &settings, &context)?;
             let gain = done.worst_after - done.worst_before + done.average_after - done.average_before;
-            if gain < LEAST_GAIN && self.released == before {
+            let stuck = done.inverted_after as f64 > LEFT * done.inverted_before as f64;
+            if stuck || gain < LEAST_GAIN && self.released == before {
                 break;
             }
         }

@@ -7,6 +7,7 @@
 
 mod barycentric;
 mod base_complex;
+mod bracket;
 mod choose;
 mod climb;
 mod embedding;

@@ -1,8 +1,8 @@
 //! The whole way from a polycube and its shape to a block structure, quadrilaterals and hexahedra.
 
-use super::choose::{Choice, Wrong, keeps_promise};
+use super::choose::{Choice, GOOD, Verdict, WORTH, Wrong};
 use super::climb::{Rung, finish};
-use super::improve::Improved;
+use super::improve::{Aim, Improved};
 use super::report::{RemeshReport, Stages, cells_of, diagonal, measure};
 use super::start::Start;
 
@@ -109,48 +109,69 @@ fn simplifying(options: &RemeshOptions) -> simplify::Options {
     simplify::Options { objective, keep_flipped: true, ..options.simplify.clone() }
 }
 
-/// Inverted hexahedra, whether the mesh is poorer than promised, how far from the shape if farther than asked for, and how bad its
-/// worst hexahedron is: the less, the better.
-type Rank = (usize, bool, f64, f64);
+/// A mesh and what it is of.
+struct Made {
+    simplified: Simplified,
+    meshed: Meshed,
+}
 
-fn wrong(&(inverted, _, far, _): &Rank) -> Option<Wrong> {
-    match inverted {
-        0 => (far > 0.0).then_some(Wrong::Far),
-        _ => Some(Wrong::Inverted),
+impl Made {
+    /// What is wrong with it. A worst hexahedron that lacks little to be good is not worth another mesh.
+    fn wrong(&self) -> Option<Wrong> {
+        match &self.meshed {
+            Meshed { inverted: 1.., .. } => Some(Wrong::Inverted),
+            Meshed { far, .. } if *far > 0.0 => Some(Wrong::Far),
+            Meshed { worst, .. } if *worst < GOOD - WORTH => Some(Wrong::Poor),
+            _ => None,
+        }
+    }
+
+    fn blocks(&self) -> usize {
+        self.simplified.report.after.map_or(0, |counts| counts.blocks_padded)
+    }
+
+    /// Worst and average scaled Jacobian in sum, the worst as far as it is not good.
+    fn value(&self) -> f64 {
+        let all = &self.meshed.scaled_jacobian;
+        self.meshed.worst.min(GOOD) + all.iter().sum::<f64>() / all.len().max(1) as f64
+    }
+
+    /// Whether it is rather to be had than `other`: one with fewer inverted hexahedra, then one nearer to the shape, then the one with
+    /// fewer blocks, unless the other is clearly better.
+    fn is_better(&self, other: &Self) -> bool {
+        let rank = |made: &Self| (made.meshed.inverted, made.meshed.far);
+        let more = if self.blocks() > other.blocks() { WORTH } else { -WORTH };
+        rank(self) < rank(other) || rank(self) == rank(other) && self.value() > other.value() + more
     }
 }
 
-/// The first mesh that is as good as its coarse one promised and as near to the shape as asked for, else the best: the one with the
-/// fewest inverted hexahedra, then one as good as promised, then the one that is nearest, then that with the best worst hexahedron.
+/// The first mesh that is uninverted, good, and as near to the shape as asked for, else the best of those that were tried.
 fn best(
     choice: &mut Choice,
     options: &RemeshOptions,
     stages: &mut Stages,
     context: &Context,
 ) -> Result<(Simplified, Meshed)> {
-    let mut best: Option<(Rank, Simplified, Meshed)> = None;
+    let mut best: Option<Made> = None;
+    let mut last = None;
     // Each takes half of the progress that is left: mostly there is one.
     let mut done = 0.0;
-    loop {
-        let wrong = best.as_ref().and_then(|(rank, ..)| wrong(rank));
-        let next = choice.next(wrong, &context.stage("map", done, done))?;
-        let Some(Start { simplified, map, shape, rung, spaced }) = next else { break };
-        let promise = rung.as_ref().map(|r| r.worst);
+    while let Some(start) = choice.next(last, &context.stage("mesh", done, done))? {
+        let Start { simplified, map, shape, rung, spaced, .. } = start;
         let share = (1.0 - done) / 2.0;
         let mut meshed = mesh(&map, &shape, rung, options, stages, &context.stage("mesh", done, done + share))?;
         meshed.spaced = spaced;
         done += share;
-        let poor = !keeps_promise(meshed.worst, promise);
-        let rank = (meshed.inverted, poor, meshed.far, -meshed.worst);
-        let enough = !poor && meshed.far == 0.0;
-        if best.as_ref().is_none_or(|b| rank < b.0) {
-            best = Some((rank, simplified, meshed));
-        }
-        if enough {
+        let made = Made { simplified, meshed };
+        let (at, wrong) = (made.simplified.report.chosen.unwrap_or(0), made.wrong());
+        if best.as_ref().is_none_or(|best| made.is_better(best)) {
+            best = Some(made);
+        } else if wrong == Some(Wrong::Poor) && best.as_ref().is_some_and(|best| best.wrong() == wrong) {
             break;
         }
+        last = Some(Verdict { at, wrong, inverted: best.as_ref().is_some_and(|b| b.meshed.inverted > 0) });
     }
-    let found = best.map(|(_, simplified, meshed)| (simplified, meshed));
+    let found = best.map(|Made { simplified, meshed }| (simplified, meshed));
     found.ok_or_else(|| Error::new(ErrorKind::Internal, "there was nothing to mesh"))
 }
 
@@ -216,7 +237,7 @@ fn mesh(
     stages.mesh += (optimising - start).as_secs_f64();
     let bound = options.max_hausdorff * diagonal(shape);
     let Improved { released, far } =
-        finish(rung, &remesher, &mut hexes, options, bound, &context.stage("optimise", 0.2, 0.97))?;
+        finish(rung, &remesher, &mut hexes, options, Aim::Within(bound), &context.stage("optimise", 0.2, 0.97))?;
     stages.optimise += optimising.elapsed().as_secs_f64();
     let context = context.stage("mesh", 0.97, 1.0);
     context.tick(0.0)?;

@@ -8,8 +8,12 @@ use crate::error::Result;
 use crate::mesh::Point;
 use crate::optimise::{Freedom, Settings, scaled_jacobian};
 
-/// How often vertices are moved there.
+/// How often vertices are moved there,
 const ROUNDS: usize = 6;
+/// unless the shape is farther than so many times the bound: vertices move by parts of an edge.
+const TOO_FAR: f64 = 2.5;
+/// A round leaves no more than this part of what the distance exceeds the bound by, or it failed.
+const LEFT: f64 = 0.9;
 /// They are where the shape is farther from the mesh than this part of the bound: a little less, as optimising moves the others.
 const NEARER: f64 = 0.9;
 /// What may be left of the worst scaled Jacobian of all, where it is not [`POOR`],
@@ -24,8 +28,30 @@ const ON: f64 = 0.1;
 enum Pull {
     /// All the way, whatever becomes of the hexahedra around: they are untangled.
     Bold,
+    /// The same half the way, which often is enough.
+    Half,
     /// As far as the hexahedra around stay the right way round.
     Careful,
+}
+
+impl Pull {
+    /// The parts of the way that are tried.
+    fn parts(self) -> &'static [f64] {
+        match self {
+            Self::Bold => &[1.0],
+            Self::Half => &[0.5],
+            Self::Careful => &[1.0, 0.5, 0.25],
+        }
+    }
+
+    /// The next way to try when this one has failed.
+    fn next(self) -> Option<Self> {
+        match self {
+            Self::Bold => Some(Self::Half),
+            Self::Half => Some(Self::Careful),
+            Self::Careful => None,
+        }
+    }
 }
 
 impl Job<'_> {
@@ -49,6 +75,9 @@ impl Job<'_> {
         let mut pull = Pull::Bold;
         let mut found = self.gaps(samples, bound, context)?;
         let far = found.first().map_or(0.0, |g| g.distance);
+        if far > TOO_FAR * bound {
+            return Ok(far);
+        }
         for round in 0..ROUNDS {
             let Some(farthest) = found.first().map(|g| g.distance).filter(|d| *d > bound) else { return Ok(0.0) };
             let [from, to] = [round, round + 1].map(|r| r as f64 / ROUNDS as f64);
@@ -57,16 +86,15 @@ impl Job<'_> {
             self.resize()?;
             self.run(&held, settings, &context.stage("reach", from, to))?;
             let left = self.gaps(samples, bound, context)?;
-            if left.first().is_none_or(|g| g.distance < farthest) && self.worst() > POOR.min(KEPT * worst) {
+            let enough = bound + LEFT * (farthest - bound);
+            if left.first().is_none_or(|g| g.distance < enough) && self.worst() > POOR.min(KEPT * worst) {
                 worst = worst.max(self.worst());
                 found = left;
                 continue;
             }
             (self.hexes.mesh.points, held) = before;
-            if pull == Pull::Careful {
-                break;
-            }
-            pull = Pull::Careful;
+            let Some(next) = pull.next() else { break };
+            pull = next;
         }
         if found.first().is_none_or(|g| g.distance <= bound) {
             return Ok(0.0);
@@ -76,8 +104,7 @@ impl Job<'_> {
     }
 
     fn gaps(&self, samples: &[Point], bound: f64, context: &Context) -> Result<Vec<Gap>> {
-        context.stage("reach", 0.0, 0.0).tick(0.0)?;
-        gaps(&self.hexes.mesh, (self.whole(), samples), NEARER * bound)
+        gaps(&self.hexes.mesh, (self.whole(), samples), NEARER * bound, &context.stage("reach", 0.0, 0.0))
     }
 
     /// Pulls vertices to the gaps, the farthest first, and one only of a face and those around it.
@@ -105,9 +132,9 @@ impl Job<'_> {
         };
         let Some((v, guide)) = corners.into_iter().find_map(|v| Some((v as usize, guide(v)?))) else { return false };
         let (from, least) = (self.hexes.mesh.points[v], KEPT_AROUND * self.worst_of(&around[v]));
-        for part in [1.0, 0.5, 0.25] {
+        for &part in pull.parts() {
             self.hexes.mesh.points[v] = guide.contact(&from.lerp(at, part)).point;
-            if pull == Pull::Bold || self.worst_of(&around[v]) > least {
+            if pull != Pull::Careful || self.worst_of(&around[v]) > least {
                 held[v] = Freedom::Fixed;
                 return true;
             }

@@ -1,6 +1,7 @@
 //! What a mesh is made from: the polycube at the wanted size, the map of its surface, and a coarser mesh.
 
 use super::climb::{Rung, climb};
+use super::improve::Aim;
 use super::pipeline::RemeshOptions;
 use super::refine::Refined;
 use super::spacing::spaced;
@@ -24,20 +25,31 @@ pub(super) struct Start {
     pub(super) rung: Option<Rung>,
     /// Whether the levels were spaced by the shape.
     pub(super) spaced: bool,
+    /// Whether no coarse mesh was made because the map of the surface stayed folded.
+    folded: bool,
 }
 
 impl Start {
-    /// Places the levels of `found` at the wanted size, untangles the map of the surface, and makes the coarse mesh.
+    /// Places the levels of `found` at the wanted size, untangles the map of the surface, and makes the coarse mesh; if it is one of
+    /// `several`, only where that looks promising.
     ///
     /// # Errors
     /// Those of [`scale_for`] and [`optimise`](crate::optimise::optimise()).
-    pub(super) fn new(input: &Input, found: Simplified, options: &RemeshOptions, context: &Context) -> Result<Self> {
+    pub(super) fn new(
+        input: &Input,
+        found: Simplified,
+        options: &RemeshOptions,
+        several: bool,
+        context: &Context,
+    ) -> Result<Self> {
         let mut simplified = sized(input, found, options, &context.stage("scale", 0.0, 0.2))?;
         let shape = input.shape.unwrap_or(input.polycube);
-        let (mut map, shape) = improve_map(&mut simplified, shape, &context.stage("map", 0.2, 0.4))?;
+        let (mut map, shape, folded) = improve_map(&mut simplified, shape, &context.stage("map", 0.2, 0.4))?;
         let mut rung = None;
-        if !options.surface_only {
-            rung = climb(&map, &shape, options, &context.stage("map", 0.4, 1.0))?;
+        let folded = folded && several;
+        let aim = if several { Aim::Trial } else { Aim::Coarse };
+        if !options.surface_only && !folded {
+            rung = climb(&map, &shape, options, aim, &context.stage("map", 0.4, 1.0))?;
         }
         let flexible = rung.as_ref().filter(|_| is_flexible(options));
         let is_spaced = flexible.is_some();
@@ -46,12 +58,12 @@ impl Start {
             simplified = on_levels(&simplified, levels.clone());
             map = on_levels(&map, levels);
         }
-        Ok(Self { simplified, map, shape, rung, spaced: is_spaced })
+        Ok(Self { simplified, map, shape, rung, spaced: is_spaced, folded })
     }
 
-    /// The worst scaled Jacobian of the coarse mesh, if there is one.
+    /// The worst scaled Jacobian of the coarse mesh, if there is one; as bad as can be where the map is folded.
     pub(super) fn worst(&self) -> Option<f64> {
-        self.rung.as_ref().map(|r| r.worst)
+        self.rung.as_ref().map(|r| r.worst).or(self.folded.then_some(-1.0))
     }
 }
 
@@ -111,18 +123,19 @@ fn ranks(found: &Simplified) -> Vec<i64> {
     (0..levels.len()).map(rank).collect()
 }
 
-/// Untangles the map of the surface. What is returned has a better one, refined for meshing, and the shape to go with it.
-fn improve_map(simplified: &mut Simplified, shape: &Mesh, context: &Context) -> Result<(Simplified, Mesh)> {
+/// Untangles the map of the surface. What is returned has a better one, refined for meshing, and the shape to go with it; and whether
+/// the map is folded all the same.
+fn improve_map(simplified: &mut Simplified, shape: &Mesh, context: &Context) -> Result<(Simplified, Mesh, bool)> {
     let Simplified { input, polycube: Some(mesh), .. } = simplified else {
-        return Ok((simplified.clone(), shape.clone()));
+        return Ok((simplified.clone(), shape.clone(), false));
     };
     let mut refined = Refined::new(input, &mesh.points, &shape.points)?;
-    untangle::surface(&mut refined, context)?;
+    let folded = untangle::surface(&mut refined, context)?;
     if !mesh.cells.is_volume() {
         mesh.points.iter_mut().zip(&refined.points).for_each(|(to, from)| *to = *from);
     }
     let [polycube, shape] = refined.meshes();
     let mut map = simplified.clone();
     (map.input, map.polycube) = (refined.polycube, Some(polycube));
-    Ok((map, shape))
+    Ok((map, shape, folded))
 }

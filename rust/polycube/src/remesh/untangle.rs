@@ -41,11 +41,13 @@ fn freedoms(polycube: &Polycube) -> Vec<Freedom> {
 
 /// How often triangles are split where they cannot be turned the right way round.
 const SPLITS: usize = 2;
+/// Splitting helps single triangles without room, not a facet that is folded: then more than this part of all are turned over.
+const FOLDED: f64 = 0.001;
 
 /// Moves the surface vertices of a polycube in their facets and along their edges so that no triangle is turned over
 /// and each looks like that of the shape, as far as that goes; splits triangles where it does not go otherwise, as long as that
-/// leaves fewer of them turned over.
-pub(super) fn surface(refined: &mut Refined, context: &Context) -> Result<()> {
+/// leaves fewer of them turned over. Whether a facet stays folded.
+pub(super) fn surface(refined: &mut Refined, context: &Context) -> Result<bool> {
     spread_chains(refined);
     let mut least = usize::MAX;
     for round in 0..=SPLITS {
@@ -55,6 +57,9 @@ pub(super) fn surface(refined: &mut Refined, context: &Context) -> Result<()> {
             relax(refined, true, &context.stage("map", 0.8, 1.0))?;
             break;
         }
+        if bad.len() as f64 > FOLDED * refined.polycube.surface.faces().len() as f64 {
+            return Ok(true);
+        }
         if bad.len() >= least {
             break;
         }
@@ -63,7 +68,7 @@ pub(super) fn surface(refined: &mut Refined, context: &Context) -> Result<()> {
             refined.split_facets_of(&bad)?;
         }
     }
-    Ok(())
+    Ok(false)
 }
 
 /// Segments of an edge no shorter than this part of their mean are well enough spread.
