@@ -10,7 +10,7 @@ use crate::report::{self, Files, RunReport, StructureFile};
 use crate::{guides, pareto, table, terminal};
 use clap::ValueHint;
 use clap::builder::PossibleValue;
-use polycube::align::{Effort, Guides, SolverKind, Strategy};
+use polycube::align::{Effort, SolverKind, Strategy};
 use polycube::layout::Objective;
 use polycube::mesh::{self, Format};
 use polycube::simplify::{Options, Simplified};
@@ -200,9 +200,8 @@ impl Args {
             simplicity: Some(self.simplicity),
             max_displacement: self.max_displacement,
             max_distortion: self.max_distortion,
-            guides: Guides::default(),
-            keep_flipped: false,
             tolerance: self.mesh.tolerance.get(),
+            ..Options::default()
         }
     }
 

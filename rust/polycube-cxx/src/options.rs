@@ -56,6 +56,7 @@ pub fn options(data: &OptionsData, input: &Input) -> Result<Options> {
         max_distortion: data.max_distortion.get().map(|x| within("max_distortion", x, 1.0..=f64::MAX)).transpose()?,
         guides: guides(&data.guides, input, &tolerance)?,
         tolerance,
+        ..Options::default()
     })
 }
 

@@ -134,6 +134,7 @@ impl<'py> Keywords<'py> {
             max_distortion: self.number("max_distortion", "of 1 or more", |x| x >= 1.0)?,
             guides: self.guides()?,
             tolerance: self.tolerance()?,
+            ..Options::default()
         })
     }
 

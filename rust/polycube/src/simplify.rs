@@ -9,9 +9,11 @@ use crate::mesh::{Mesh, Point};
 use crate::structure::{Arrangement, Deviation, Polycube, Tolerance, Violation};
 use std::time::Instant;
 
+mod corners;
 mod front;
 mod untangle;
 
+pub(crate) use corners::Corners;
 pub use front::Located;
 
 /// What is simplified.

@@ -3,10 +3,10 @@
 use super::refine::Refined;
 use crate::context::Context;
 use crate::error::Result;
-use crate::mesh::{Cells, Face, Mesh, Point, split_quad};
-use crate::optimise::{Elements, Freedom, Settings, optimise, tetrahedron_volume};
-use crate::structure::{Label, Polycube, area_vector};
-use nalgebra::Vector3;
+use crate::mesh::{Cells, Mesh, Point};
+use crate::optimise::{Elements, Freedom, Settings, optimise};
+use crate::simplify::Corners;
+use crate::structure::Polycube;
 
 /// Untangling alone, and just enough of it.
 const TETRAHEDRA: Settings = Settings {
@@ -31,12 +31,9 @@ const SURFACE: Settings = Settings { untangle_rounds: 40, untangle_iterations: 1
 pub(super) fn volume(polycube: &Polycube, mesh: &mut Mesh, shape: &[Point], context: &Context) -> Result<usize> {
     let Cells::Tetrahedra(cells) = &mesh.cells else { return Ok(0) };
     let elements = Elements::tetrahedra_like(cells, shape)?;
-    let freedom: Vec<Freedom> = freedoms(polycube);
+    let freedom = polycube.vertex_levels.iter().map(|levels| Freedom::Axes(levels.map(|l| l.is_some())));
+    let freedom: Vec<Freedom> = freedom.collect();
     Ok(optimise(&mut mesh.points, &elements, &freedom, &[], &TETRAHEDRA, context)?.inverted_after)
-}
-
-fn freedoms(polycube: &Polycube) -> Vec<Freedom> {
-    polycube.vertex_levels.iter().map(|levels| Freedom::Axes(levels.map(|l| l.is_some()))).collect()
 }
 
 /// How often triangles are split where they cannot be turned the right way round.
@@ -96,66 +93,20 @@ fn spread_chains(refined: &mut Refined) {
 
 /// One round, in which vertices slide along polycube edges or not; returns the triangles that are still turned over.
 ///
-/// Each triangle becomes a tetrahedron by a vertex of its own that floats in a plane above it, so that the
-/// tetrahedron is inverted just where the triangle is. While there are such, edges are held: their vertices would
-/// lose their order.
+/// While there are such, edges are held: their vertices would lose their order.
 fn relax(refined: &mut Refined, sliding: bool, context: &Context) -> Result<Vec<usize>> {
     let Refined { polycube, points, shape, .. } = refined;
-    let lifted = Lifted::new(polycube, points, shape);
-    let mut moved: Vec<Point> = points.iter().chain(&lifted.above).copied().collect();
-    let rest: Vec<Point> = shape.iter().chain(&lifted.above_shape).copied().collect();
-    let mut freedom = freedoms(polycube);
-    for (freedom, levels) in freedom.iter_mut().zip(&polycube.vertex_levels) {
-        match levels.iter().flatten().count() {
-            1 => {}
-            2 if sliding => {}
-            _ => *freedom = Freedom::Fixed,
+    let mut corners = Corners::of_surface(polycube, points, shape);
+    for (freedom, levels) in corners.freedom.iter_mut().zip(&polycube.vertex_levels) {
+        if sliding && levels.iter().flatten().count() == 2 {
+            *freedom = Freedom::Axes(levels.map(|l| l.is_some()));
         }
     }
-    freedom.extend(lifted.labels.iter().map(|l| Freedom::Axes(std::array::from_fn(|a| a == l.axis()))));
-    let elements = Elements::tetrahedra_like(&lifted.tetrahedra, &rest)?;
-    optimise(&mut moved, &elements, &freedom, &[], if sliding { &SMOOTH } else { &SURFACE }, context)?;
-    let bad = |(_, t): &(usize, &[u32; 4])| tetrahedron_volume(&moved, t) <= 0.0;
-    let bad: Vec<usize> = lifted.tetrahedra.iter().enumerate().filter(bad).map(|(i, _)| i).collect();
-    moved.truncate(points.len());
-    *points = moved;
+    let elements = Elements::tetrahedra_like(&corners.tetrahedra, &corners.rest)?;
+    let settings = if sliding { &SMOOTH } else { &SURFACE };
+    optimise(&mut corners.points, &elements, &corners.freedom, &[], settings, context)?;
+    let bad = corners.turned_over();
+    corners.points.truncate(points.len());
+    *points = corners.points;
     Ok(bad)
-}
-
-/// The triangles of a surface as tetrahedra.
-struct Lifted {
-    tetrahedra: Vec<[u32; 4]>,
-    labels: Vec<Label>,
-    /// The fourth vertex of each over the polycube.
-    above: Vec<Point>,
-    /// The same over the shape.
-    above_shape: Vec<Point>,
-}
-
-impl Lifted {
-    fn new(polycube: &Polycube, points: &[Point], shape: &[Point]) -> Self {
-        let area =
-            |points: &[Point]| -> f64 { polycube.surface.faces().iter().map(|f| area_vector(points, f).norm()).sum() };
-        let stretch = (area(points) / area(shape)).sqrt();
-        let mut lifted = Self { tetrahedra: vec![], labels: vec![], above: vec![], above_shape: vec![] };
-        for (face, label) in polycube.surface.faces().iter().zip(polycube.labels()) {
-            match *face {
-                Face::Triangle(t) => lifted.add(t, label, points, shape, stretch),
-                Face::Quad(q) => split_quad(q).into_iter().for_each(|t| lifted.add(t, label, points, shape, stretch)),
-            }
-        }
-        lifted
-    }
-
-    fn add(&mut self, t: [u32; 3], label: Label, points: &[Point], shape: &[Point], stretch: f64) {
-        let middle = |at: &[Point]| Point::from(t.iter().map(|&v| at[v as usize].coords).sum::<Vector3<f64>>() / 3.0);
-        let area = area_vector(shape, &Face::Triangle(t));
-        let height = area.norm().sqrt();
-        let mut up = Vector3::zeros();
-        up[label.axis()] = f64::from(label.sign());
-        self.tetrahedra.push([t[0], t[1], t[2], (points.len() + self.above.len()) as u32]);
-        self.labels.push(label);
-        self.above.push(middle(points) + up * (height * stretch));
-        self.above_shape.push(middle(shape) + area.try_normalize(0.0).unwrap_or(up) * height);
-    }
 }

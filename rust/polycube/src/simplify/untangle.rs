@@ -1,11 +1,11 @@
 //! Turns the right way round what the morph turned over, by moving what is near it.
 
+use super::corners::Corners;
 use crate::context::Context;
 use crate::error::Result;
-use crate::mesh::{Cells, Face, Mesh, Point};
-use crate::optimise::{Elements, Freedom, HEX_CORNERS, Settings, optimise, tetrahedron_volume};
-use crate::structure::{Label, Polycube, area_vector};
-use nalgebra::Vector3;
+use crate::mesh::{Mesh, Point};
+use crate::optimise::{Elements, Freedom, Settings, optimise};
+use crate::structure::Polycube;
 
 /// Rings of vertices around what is turned over that move: few at first, more where that is not enough.
 const RINGS: [usize; 3] = [4, 8, 16];
@@ -35,7 +35,7 @@ const SETTINGS: Settings = Settings {
 /// # Errors
 /// [`ErrorKind::Cancelled`](crate::ErrorKind::Cancelled).
 pub(super) fn untangle(polycube: &Polycube, mesh: &mut Mesh, shape: &Mesh, context: &Context) -> Result<()> {
-    let mut corners = Corners::new(polycube, mesh, shape);
+    let mut corners = Corners::new(polycube, mesh, &shape.points);
     for (i, rings) in RINGS.into_iter().enumerate() {
         let bad = corners.turned_over();
         if bad.is_empty() || bad.len() as f64 > FOLDED * corners.tetrahedra.len() as f64 {
@@ -49,67 +49,7 @@ pub(super) fn untangle(polycube: &Polycube, mesh: &mut Mesh, shape: &Mesh, conte
     Ok(())
 }
 
-/// A mesh as the tetrahedra at the corners of its cells. Those of a surface have a vertex of their own that floats in a
-/// plane above the face, so that a tetrahedron is inverted just where the face is.
-struct Corners {
-    tetrahedra: Vec<[u32; 4]>,
-    points: Vec<Point>,
-    rest: Vec<Point>,
-    freedom: Vec<Freedom>,
-}
-
 impl Corners {
-    fn new(polycube: &Polycube, mesh: &Mesh, shape: &Mesh) -> Self {
-        let freedom = polycube.vertex_levels.iter().map(|levels| match levels.iter().flatten().count() {
-            0 => Freedom::Free,
-            1 => Freedom::Axes(levels.map(|l| l.is_some())),
-            _ => Freedom::Fixed,
-        });
-        let (points, rest) = (mesh.points.clone(), shape.points.clone());
-        let mut corners = Self { tetrahedra: Vec::new(), points, rest, freedom: freedom.collect() };
-        match &mesh.cells {
-            Cells::Tetrahedra(cells) => corners.tetrahedra.clone_from(cells),
-            Cells::Hexahedra(cells) => {
-                corners.tetrahedra = cells.iter().flat_map(|h| HEX_CORNERS.map(|c| c.map(|i| h[i]))).collect()
-            }
-            Cells::Triangles(_) | Cells::Quads(_) => corners.lift(polycube),
-        }
-        corners
-    }
-
-    /// Adds the tetrahedra over the faces of a surface.
-    fn lift(&mut self, polycube: &Polycube) {
-        let area =
-            |points: &[Point]| -> f64 { polycube.surface.faces().iter().map(|f| area_vector(points, f).norm()).sum() };
-        let stretch = (area(&self.points) / area(&self.rest)).sqrt();
-        for (face, label) in polycube.surface.faces().iter().zip(polycube.labels()) {
-            match *face {
-                Face::Triangle(t) => self.lift_triangle(t, label, stretch),
-                Face::Quad(q) => {
-                    (0..4).for_each(|k| self.lift_triangle([0, 1, 3].map(|i| q[(k + i) % 4]), label, stretch))
-                }
-            }
-        }
-    }
-
-    fn lift_triangle(&mut self, t: [u32; 3], label: Label, stretch: f64) {
-        let middle = |at: &[Point]| Point::from(t.iter().map(|&v| at[v as usize].coords).sum::<Vector3<f64>>() / 3.0);
-        let area = area_vector(&self.rest, &Face::Triangle(t));
-        let height = area.norm().sqrt();
-        let mut up = Vector3::zeros();
-        up[label.axis()] = f64::from(label.sign());
-        self.tetrahedra.push([t[0], t[1], t[2], self.points.len() as u32]);
-        self.points.push(middle(&self.points) + up * (height * stretch));
-        self.rest.push(middle(&self.rest) + area.try_normalize(0.0).unwrap_or(up) * height);
-        self.freedom.push(Freedom::Axes(std::array::from_fn(|a| a == label.axis())));
-    }
-
-    /// The tetrahedra that are turned over or flat, ascending.
-    fn turned_over(&self) -> Vec<usize> {
-        let bad = |(_, t): &(usize, &[u32; 4])| tetrahedron_volume(&self.points, t) <= 0.0;
-        self.tetrahedra.iter().enumerate().filter(bad).map(|(i, _)| i).collect()
-    }
-
     /// Moves the vertices within some rings of the tetrahedra `bad`, if that leaves fewer of them.
     fn relax(&mut self, bad: &[usize], rings: usize, context: &Context) -> Result<()> {
         let near = self.near(bad, rings);
