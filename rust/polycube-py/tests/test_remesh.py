@@ -85,8 +85,8 @@ def test_a_surface_alone(surfaces):
 
 
 def test_padding(pair):
-    bare = polycube.remesh(*pair, scale=0.15, padding=0)
-    padded = polycube.remesh(*pair, scale=0.15, padding=2)
+    bare = polycube.remesh(*pair, scale=0.15, padding=0, simplicity=1.0)
+    padded = polycube.remesh(*pair, scale=0.15, padding=2, simplicity=1.0)
     quads = len(bare.quads.cells)
     assert len(padded.quads.cells) == quads
     assert len(padded.hexes.cells) == len(bare.hexes.cells) + 2 * quads
