@@ -9,7 +9,7 @@ use crate::mesh::Point;
 use crate::optimise::{Freedom, Settings, scaled_jacobian};
 
 /// How often vertices are moved there,
-const ROUNDS: usize = 6;
+const ROUNDS: usize = 4;
 /// unless the shape is farther than so many times the bound: vertices move by parts of an edge.
 const TOO_FAR: f64 = 2.5;
 /// A round leaves no more than this part of what the distance exceeds the bound by, or it failed.
@@ -92,8 +92,10 @@ impl Job<'_> {
                 found = left;
                 continue;
             }
+            // Reached by hexahedra that are poor but not inverted, it is no better reached more gently.
+            let is_vain = left.is_empty() && self.worst() > 0.0;
             (self.hexes.mesh.points, held) = before;
-            let Some(next) = pull.next() else { break };
+            let Some(next) = pull.next().filter(|_| !is_vain) else { break };
             pull = next;
         }
         if found.first().is_none_or(|g| g.distance <= bound) {
