@@ -8,7 +8,7 @@ use crate::optimise::{Elements, Freedom, Settings, optimise};
 use crate::structure::Polycube;
 
 /// Rings of vertices around what is turned over that move: few at first, more where that is not enough.
-const RINGS: [usize; 3] = [4, 8, 16];
+const RINGS: [usize; 2] = [4, 8];
 
 /// Where a larger part of all is turned over, facets are folded as a whole, and moving what is near does not help.
 const FOLDED: f64 = 0.01;
