@@ -86,14 +86,15 @@ impl Job<'_> {
             self.resize()?;
             self.run(&held, settings, &context.stage("reach", from, to))?;
             let left = self.gaps(samples, bound, context)?;
+            let reached = self.worst();
             let enough = bound + LEFT * (farthest - bound);
-            if left.first().is_none_or(|g| g.distance < enough) && self.worst() > POOR.min(KEPT * worst) {
-                worst = worst.max(self.worst());
+            if left.first().is_none_or(|g| g.distance < enough) && reached > POOR.min(KEPT * worst) {
+                worst = worst.max(reached);
                 found = left;
                 continue;
             }
             // Reached by hexahedra that are poor but not inverted, it is no better reached more gently.
-            let is_vain = left.is_empty() && self.worst() > 0.0;
+            let is_vain = left.is_empty() && reached > 0.0;
             (self.hexes.mesh.points, held) = before;
             let Some(next) = pull.next().filter(|_| !is_vain) else { break };
             pull = next;
