@@ -105,7 +105,14 @@ impl<'a> Assembly<'a> {
         Census { average: if cells == 0 { 1.0 } else { all.average }, ..all }
     }
 
-    /// The same of some cells, with the sum for the average.
+    /// Cells with an element of no positive quality.
+    pub(super) fn inverted(&self, points: &[Point]) -> Vec<usize> {
+        let cells = self.elements.len() / self.elements.per_cell;
+        let bad = |&cell: &usize| self.part(points, cell..cell + 1).inverted > 0;
+        (0..cells).into_par_iter().with_min_len(CHUNK / self.elements.per_cell).filter(bad).collect()
+    }
+
+    /// The census of some cells, with the sum for the average.
     fn part(&self, points: &[Point], cells: std::ops::Range<usize>) -> Census {
         let mut census = Census { inverted: 0, worst: 1.0, least: f64::INFINITY, average: 0.0 };
         for cell in cells {

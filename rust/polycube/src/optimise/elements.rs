@@ -149,6 +149,28 @@ impl Elements {
         i / self.per_cell
     }
 
+    /// The vertices of a cell, some more than once.
+    pub(super) fn vertices_of(&self, cell: usize) -> impl Iterator<Item = u32> {
+        self.corners[cell * self.per_cell..(cell + 1) * self.per_cell].iter().flatten().copied()
+    }
+
+    /// The cells with a vertex among some.
+    pub(super) fn cells_with(&self, some: &[bool]) -> Vec<usize> {
+        let cells = (0..self.len() / self.per_cell).into_par_iter().with_min_len(LEAST_SHARE / self.per_cell);
+        cells.filter(|&cell| self.vertices_of(cell).any(|v| some[v as usize])).collect()
+    }
+
+    /// Some of the cells, with vertices numbered by `own`.
+    pub(super) fn some(&self, cells: &[usize], own: impl Fn(u32) -> u32) -> Self {
+        let all = || cells.iter().flat_map(|&cell| cell * self.per_cell..(cell + 1) * self.per_cell);
+        Self {
+            corners: all().map(|e| self.corners[e].map(&own)).collect(),
+            references: all().map(|e| self.references[e]).collect(),
+            weights: all().map(|e| self.weights[e]).collect(),
+            ..*self
+        }
+    }
+
     /// Makes every reference larger by `factor`.
     pub(super) fn enlarge(&mut self, factor: f64) {
         self.references.iter_mut().for_each(|r| *r = r.enlarged(factor));

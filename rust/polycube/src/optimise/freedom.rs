@@ -22,8 +22,8 @@ pub enum Freedom {
 
 /// The movements left at the present positions.
 pub(super) struct Constraints<'a> {
-    freedom: &'a [Freedom],
-    guides: &'a [&'a dyn Guide],
+    pub(super) freedom: &'a [Freedom],
+    pub(super) guides: &'a [&'a dyn Guide],
     tangents: Vec<Tangent>,
 }
 

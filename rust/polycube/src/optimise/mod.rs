@@ -4,7 +4,8 @@
 //! three phases:
 //!
 //! 1. **Untangle** (only where something is inverted): minimises the regularised energy of Garanzha et al., "Foldover-free
-//!    maps in 50 lines of code" (ACM TOG 2021), for falling ε, by L-BFGS.
+//!    maps in 50 lines of code" (ACM TOG 2021), for falling ε, by L-BFGS. Only what is near inverted elements moves at first: all the
+//!    rest would have to be solved as well, time and again, and may pull the other way.
 //! 2. **Improve**: minimises the same energy without regularisation, an infinite barrier against inversion, together with a
 //!    growing power of the badness of the elements near the worst one.
 //! 3. **Polish**: pattern search at the vertices of the worst elements.
@@ -21,6 +22,7 @@ mod guide;
 mod improve;
 mod lanes;
 mod lbfgs;
+mod near;
 mod nearest;
 mod polish;
 mod problem;
@@ -158,7 +160,10 @@ fn run(problem: &mut Problem, points: &mut Vec<Point>, settings: &Settings, cont
     problem.constraints.project(points);
     let mut valid = problem.assembly.census(points).inverted == 0;
     if !valid {
-        valid = untangle::untangle(problem, points, settings, &context.stage("untangle", 0.0, 0.4))?;
+        valid = near::untangle(problem, points, settings, &context.stage("untangle", 0.0, 0.1))?;
+    }
+    if !valid {
+        valid = untangle::untangle(problem, points, settings, &context.stage("untangle", 0.1, 0.4))?;
     }
     if valid {
         raise(problem, points, settings, context)?;

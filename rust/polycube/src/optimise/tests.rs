@@ -58,6 +58,25 @@ fn scrambled_tetrahedra_are_untangled() {
 }
 
 #[test]
+fn only_what_is_near_moves_where_little_is_inverted() {
+    for kind in [CellKind::Hexahedra, CellKind::Tetrahedra] {
+        let mut mesh = block(kind, 12);
+        let freedom = fixed_boundary(&mesh);
+        let elements = match &mesh.cells {
+            Cells::Hexahedra(cells) => Elements::cubes(cells),
+            _ => Elements::tetrahedra_like(tets(&mesh), &mesh.points).unwrap(),
+        };
+        let (rest, middle) = (mesh.points.clone(), Point::new(6.0, 6.0, 6.0));
+        mesh.points.iter_mut().filter(|p| **p == middle).for_each(|p| p.x += 1.7);
+        let settings = Settings { improve_rounds: 0, polish_rounds: 0, ..Settings::default() };
+        let report = optimise(&mut mesh.points, &elements, &freedom, &[], &settings, &Context::default()).unwrap();
+        assert!(report.inverted_before > 0 && report.inverted_after == 0, "{kind}: {report:?}");
+        let far = rest.iter().zip(&mesh.points).filter(|(p, _)| (*p - middle).amax() > 5.0);
+        far.for_each(|(before, after)| assert_eq!(before, after));
+    }
+}
+
+#[test]
 fn scrambled_hexahedra_become_cubes_again() {
     for seed in 1..=3 {
         let mut mesh = block(CellKind::Hexahedra, 6);
