@@ -160,10 +160,7 @@ fn run(problem: &mut Problem, points: &mut Vec<Point>, settings: &Settings, cont
     problem.constraints.project(points);
     let mut valid = problem.assembly.census(points).inverted == 0;
     if !valid {
-        valid = near::untangle(problem, points, settings, &context.stage("untangle", 0.0, 0.1))?;
-    }
-    if !valid {
-        valid = untangle::untangle(problem, points, settings, &context.stage("untangle", 0.1, 0.4))?;
+        valid = near::untangle(problem, points, settings, &context.stage("untangle", 0.0, 0.4))?;
     }
     if valid {
         raise(problem, points, settings, context)?;

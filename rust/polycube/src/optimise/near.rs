@@ -14,36 +14,62 @@ const RINGS: [usize; 2] = [2, 4];
 /// It is no less work than moving all where the part is larger than this.
 const LARGE: f64 = 0.25;
 
-/// Moves the vertices near inverted elements until none is left, as far as that goes; whether none is. Sliding vertices are on their
-/// guides before and after.
+/// Where this part of the inverted cells is left, all vertices move: more would get in the way of what was reached.
+const LEFT: f64 = 0.5;
+
+/// Untangles what is near inverted elements, and all of the mesh if that does not help; whether none is inverted then. Sliding
+/// vertices are on their guides before and after.
 pub(super) fn untangle(
     problem: &mut Problem,
-    points: &mut [Point],
+    points: &mut Vec<Point>,
     settings: &Settings,
     context: &Context,
 ) -> Result<bool> {
-    for rings in RINGS {
-        let bad = problem.assembly.inverted(points);
-        let part = Part::new(problem.elements, problem.constraints.freedom, &bad, rings);
-        if part.elements.len() as f64 > LARGE * problem.elements.len() as f64 {
-            return Ok(false);
-        }
-        let mut moved: Vec<Point> = part.vertices.iter().map(|&v| points[v as usize]).collect();
-        let mut constraints = Constraints::new(&part.freedom, problem.constraints.guides)?;
-        constraints.project(&mut moved);
-        let mut own = Problem::new(&part.elements, constraints, moved.len());
-        let is_valid = untangle::untangle(&mut own, &mut moved, settings, context)?;
-        problem.iterations += own.iterations;
-        if own.assembly.census(&moved).inverted < bad.len() {
-            for (&v, point) in part.vertices.iter().zip(moved) {
-                points[v as usize] = problem.constraints.place(v as usize, point);
-            }
-        }
-        if is_valid && problem.assembly.census(points).inverted == 0 {
-            return Ok(true);
+    let before = problem.assembly.inverted(points).len();
+    for (i, rings) in RINGS.into_iter().enumerate() {
+        let context = context.stage("untangle", 0.1 * i as f64, 0.1 * (i + 1) as f64);
+        if !untangle_near(problem, points, rings, settings, &context)? {
+            break;
         }
     }
-    Ok(false)
+    let left = problem.assembly.inverted(points).len();
+    if left as f64 > LEFT * before as f64 {
+        let start = points.clone();
+        untangle::untangle(problem, points, settings, &context.stage("untangle", 0.2, 1.0))?;
+        if problem.assembly.inverted(points).len() >= left {
+            points.copy_from_slice(&start);
+            problem.constraints.project(points);
+        }
+    }
+    Ok(problem.assembly.inverted(points).is_empty())
+}
+
+/// Moves the vertices within so many `rings` of inverted elements, if that leaves fewer of them. Whether there may be some left, and
+/// the part was not too large.
+fn untangle_near(
+    problem: &mut Problem,
+    points: &mut [Point],
+    rings: usize,
+    settings: &Settings,
+    context: &Context,
+) -> Result<bool> {
+    let bad = problem.assembly.inverted(points);
+    let part = Part::new(problem.elements, problem.constraints.freedom, &bad, rings);
+    if bad.is_empty() || part.elements.len() as f64 > LARGE * problem.elements.len() as f64 {
+        return Ok(false);
+    }
+    let mut moved: Vec<Point> = part.vertices.iter().map(|&v| points[v as usize]).collect();
+    let mut constraints = Constraints::new(&part.freedom, problem.constraints.guides)?;
+    constraints.project(&mut moved);
+    let mut own = Problem::new(&part.elements, constraints, moved.len());
+    untangle::untangle(&mut own, &mut moved, settings, context)?;
+    problem.iterations += own.iterations;
+    if own.assembly.inverted(&moved).len() < bad.len() {
+        for (&v, point) in part.vertices.iter().zip(moved) {
+            points[v as usize] = problem.constraints.place(v as usize, point);
+        }
+    }
+    Ok(true)
 }
 
 /// Some cells with their vertices numbered anew; those that other cells have, too, are held.
