@@ -14,10 +14,7 @@ const RINGS: [usize; 2] = [2, 4];
 /// It is no less work than moving all where the part is larger than this.
 const LARGE: f64 = 0.25;
 
-/// Where this part of the inverted cells is left, all vertices move: more would get in the way of what was reached.
-const LEFT: f64 = 0.5;
-
-/// Untangles what is near inverted elements, and all of the mesh if that does not help; whether none is inverted then. Sliding
+/// Untangles what is near inverted elements, and all of the mesh if that does not help at all; whether none is inverted then. Sliding
 /// vertices are on their guides before and after.
 pub(super) fn untangle(
     problem: &mut Problem,
@@ -33,7 +30,7 @@ pub(super) fn untangle(
         }
     }
     let left = problem.assembly.inverted(points).len();
-    if left as f64 > LEFT * before as f64 {
+    if left == before {
         let start = points.clone();
         untangle::untangle(problem, points, settings, &context.stage("untangle", 0.2, 1.0))?;
         if problem.assembly.inverted(points).len() >= left {
