@@ -6,6 +6,7 @@
 //! cargo run --release --example timings -- tetrahedra COUNT…   simplifying generated polycubes, with peak memory
 //! cargo run --release --example timings -- neighbours COUNT…   neighbouring corners, on degenerate point sets, too
 //! cargo run --release --example timings -- morph FILE          a morph of the mesh, with peak memory
+//! cargo run --release --example timings -- front FILE SHAPE    moving along the front, point by point
 //! cargo run --release --example timings -- copy FILE FOLDER    reading and writing
 //! ```
 //!
@@ -145,6 +146,20 @@ fn memory() -> f64 {
     line.and_then(|l| l.split_whitespace().next()?.parse().ok()).map_or(0.0, |kb: f64| kb / 1024.0)
 }
 
+/// Each point of the front from where the search ended.
+fn front(file: &str, shape: &str) -> Result<()> {
+    let (mesh, shape) = (read(Path::new(file))?, read(Path::new(shape))?);
+    let input = Input { polycube: &mesh, shape: Some(&shape), labels: None };
+    let found = simplify(&input, &polycube::Options::default(), &Context::default())?;
+    let last = found.report.front.len().saturating_sub(1);
+    for index in 0..=last {
+        let simplicity = 1.0 - index as f64 / last.max(1) as f64;
+        let (point, time) = best(|| found.at(&input, simplicity, &Context::default()))?;
+        println!("{}", json!({ "point": point.report.chosen, "at": time, "flipped": point.report.flipped_elements }));
+    }
+    Ok(())
+}
+
 fn copy(file: &str, folder: &str) -> Result<Value> {
     let from = Path::new(file);
     let to = Path::new(folder).join(from.file_name().unwrap_or_default());
@@ -166,6 +181,7 @@ fn main() -> Result<()> {
         ("tetrahedra", _) => tetrahedra,
         ("neighbours", _) => crowd,
         ("morph", _) => morphed,
+        ("front", [file, shape]) => return front(file, shape),
         ("copy", [file, folder]) => {
             println!("{}", copy(file, folder)?);
             return Ok(());

@@ -11,6 +11,7 @@ use std::time::Instant;
 
 mod corners;
 mod front;
+mod regions;
 mod untangle;
 
 pub(crate) use corners::Corners;

@@ -57,6 +57,11 @@ pub struct Settings {
     pub untangle_rounds: usize,
     /// Most iterations of a round of untangling; 100 by default.
     pub untangle_iterations: usize,
+    /// Whether what is near inverted elements is untangled by itself first; true by default.
+    pub near_first: bool,
+    /// Least share of the energy that a round of untangling is taken to gain, in `0..1` (σ of Garanzha et al.); the larger, the
+    /// faster ε falls; 0.1 by default.
+    pub least_gain: f64,
     /// Rounds of improvement, with exponents growing from 2 to 64; 0 to leave the mesh untangled only; 6 by default.
     pub improve_rounds: usize,
     /// Most iterations of a round of improvement; 30 by default.
@@ -75,6 +80,8 @@ impl Default for Settings {
             theta: 0.1,
             untangle_rounds: 60,
             untangle_iterations: 100,
+            near_first: true,
+            least_gain: 0.1,
             improve_rounds: 6,
             improve_iterations: 30,
             average: 4.0,
@@ -160,7 +167,8 @@ fn run(problem: &mut Problem, points: &mut Vec<Point>, settings: &Settings, cont
     problem.constraints.project(points);
     let mut valid = problem.assembly.census(points).inverted == 0;
     if !valid {
-        valid = near::untangle(problem, points, settings, &context.stage("untangle", 0.0, 0.4))?;
+        let way = if settings.near_first { near::untangle } else { untangle::untangle };
+        valid = way(problem, points, settings, &context.stage("untangle", 0.0, 0.4))?;
     }
     if valid {
         raise(problem, points, settings, context)?;
@@ -193,10 +201,13 @@ fn check(points: &[Point], elements: &Elements, freedom: &[Freedom], settings: &
         return Err(Error::new(ErrorKind::Mismatch, message).remedy("give one freedom per point"));
     }
     let weights = 0.0..f64::INFINITY;
-    let Settings { theta, average, strength, .. } = *settings;
-    if !((0.0..1.0).contains(&theta) && weights.contains(&average) && weights.contains(&strength)) {
-        let message = format!("theta {theta}, average {average} or strength {strength} is out of range");
-        return Err(Error::new(ErrorKind::Option, message).remedy("use 0 <= theta < 1, average >= 0 and strength >= 0"));
+    let Settings { theta, average, strength, least_gain, .. } = *settings;
+    let shares = [theta, least_gain].iter().all(|x| (0.0..1.0).contains(x));
+    if !(shares && [average, strength].iter().all(|x| weights.contains(x))) {
+        let message =
+            format!("theta {theta}, average {average}, strength {strength} or least gain {least_gain} is out of range");
+        return Err(Error::new(ErrorKind::Option, message)
+            .remedy("use 0 <= theta < 1, average >= 0, strength >= 0 and 0 <= least gain < 1"));
     }
     if let Some(v) = points.iter().position(|p| p.coords.iter().any(|x| !x.is_finite())) {
         return Err(Error::new(ErrorKind::Mesh, "a coordinate is not finite").at(Place::Vertex(v as u32)));

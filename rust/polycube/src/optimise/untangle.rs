@@ -14,8 +14,6 @@ const FIRST_EPSILON: [f64; 2] = [0.01, 1.0];
 const LEAST_EPSILON: f64 = 1e-10;
 /// A few iterations that gain less end the round.
 const TOLERANCE: f64 = 1e-3;
-/// Least share of the energy a round is taken to have gained (σ of the paper).
-const LEAST_GAIN: f64 = 0.1;
 
 /// Minimises the regularised energy for falling ε until no element is inverted or the rounds are used up. Returns whether
 /// none is. Sliding vertices are on their guides before and after.
@@ -38,14 +36,14 @@ pub(super) fn untangle(
         if census.inverted == 0 && census.least > 0.0 {
             return Ok(true);
         }
-        epsilon = next_epsilon(epsilon, census.least, gain);
+        epsilon = next_epsilon(epsilon, census.least, gain.clamp(settings.least_gain, 1.0));
     }
     Ok(false)
 }
 
-/// The schedule of Garanzha et al. 2021, equation 8: with it finitely many rounds suffice if each is solved well.
-fn next_epsilon(epsilon: f64, least: f64, gain: f64) -> f64 {
-    let sigma = gain.clamp(LEAST_GAIN, 1.0);
+/// The schedule of Garanzha et al. 2021, equation 8: with it finitely many rounds suffice if each is solved well. `sigma` is the share
+/// of the energy that the last one gained.
+fn next_epsilon(epsilon: f64, least: f64, sigma: f64) -> f64 {
     let root = (epsilon * epsilon + least * least).sqrt();
     let chi = if least > 0.0 { 0.5 * (least + root) } else { 0.5 * epsilon * epsilon / (root - least) };
     let mu = (1.0 - sigma) * chi;
@@ -61,7 +59,7 @@ mod tests {
     fn epsilon_falls_to_its_end() {
         let (mut epsilon, mut least) = (1.0, -3.0);
         for _ in 0..200 {
-            let next = next_epsilon(epsilon, least, 0.02);
+            let next = next_epsilon(epsilon, least, 0.1);
             assert!(next <= epsilon);
             (epsilon, least) = (next, least * 0.9);
         }

@@ -13,6 +13,8 @@ const TETRAHEDRA: Settings = Settings {
     theta: 0.1,
     untangle_rounds: 20,
     untangle_iterations: 50,
+    near_first: true,
+    least_gain: 0.1,
     improve_rounds: 0,
     improve_iterations: 0,
     average: 0.0,

@@ -8,6 +8,8 @@ use nalgebra::Vector3;
 /// A mesh as the tetrahedra at the corners of its cells. Those of a surface have a vertex of their own that floats in a
 /// plane above the face, so that a tetrahedron is inverted just where the face is.
 pub(crate) struct Corners {
+    /// How many of the points are vertices of the mesh; the others float.
+    pub(super) vertices: usize,
     pub(crate) tetrahedra: Vec<[u32; 4]>,
     pub(crate) points: Vec<Point>,
     pub(crate) rest: Vec<Point>,
@@ -41,7 +43,8 @@ impl Corners {
             1 => Freedom::Axes(levels.map(|l| l.is_some())),
             _ => Freedom::Fixed,
         });
-        Self { tetrahedra: Vec::new(), points: points.to_vec(), rest: rest.to_vec(), freedom: freedom.collect() }
+        let (points, rest, freedom) = (points.to_vec(), rest.to_vec(), freedom.collect());
+        Self { vertices: points.len(), tetrahedra: Vec::new(), points, rest, freedom }
     }
 
     /// Adds the tetrahedra over the faces of a surface.
