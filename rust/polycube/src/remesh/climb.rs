@@ -1,7 +1,7 @@
 //! From coarse lattices to fine ones: what a coarse mesh costs little to find is where a fine one starts.
 
 use super::grid::Grid;
-use super::improve::{Aim, Improved, improve};
+use super::improve::{Aim, Improved, improve, inverted};
 use super::interior::interpolate;
 use super::keys::{Keys, rank};
 use super::padding::Padding;
@@ -13,9 +13,9 @@ use super::warp::{Warp, on_levels};
 use super::{Hexes, Remesher, count_hexes};
 use crate::align::{self, Options, Strategy};
 use crate::context::Context;
-use crate::error::Result;
+use crate::error::{Error, ErrorKind, Result};
 use crate::mesh::{Mesh, Point};
-use crate::optimise::scaled_jacobian;
+use crate::optimise::{Settings, scaled_jacobian};
 use crate::simplify::Simplified;
 
 /// A mesh of fewer hexahedra needs none coarser to start from,
@@ -168,7 +168,8 @@ pub(super) fn climb(
     Ok(rung)
 }
 
-/// Improves `hexes`, starting from the mesh of a coarser lattice if that leads to no inverted hexahedron, else as they are.
+/// Improves `hexes`, starting from the mesh of a coarser lattice; where that leaves hexahedra inverted, as they are; and then by moving
+/// all of the mesh to untangle it, which takes longer, unless it is only a trial. The one with the fewest inverted hexahedra is kept.
 ///
 /// # Errors
 /// Those of [`optimise`](crate::optimise::optimise()).
@@ -180,16 +181,24 @@ pub(super) fn finish(
     aim: Aim,
     context: &Context,
 ) -> Result<Improved> {
-    let improve =
-        |hexes: &mut Hexes| improve(remesher.simplified, hexes, remesher.shape, &options.optimise, aim, context);
-    if let Some(rung) = rung.filter(|r| r.worst > 0.0) {
-        let mut started = hexes.clone();
-        rung.start(remesher, &mut started)?;
-        let improved = improve(&mut started)?;
-        if worst(&started) > 0.0 {
-            *hexes = started;
-            return Ok(improved);
+    let rung = rung.filter(|r| r.worst > 0.0);
+    let ways = [(rung.as_ref(), true), (None, true), (None, false)];
+    let is_possible = |i: &usize| (*i > 0 || rung.is_some()) && (*i < 2 || aim != Aim::Trial);
+    let mut best: Option<(usize, Hexes, Improved)> = None;
+    for (rung, near_first) in (0..ways.len()).filter(is_possible).map(|i| ways[i]) {
+        let mut tried = hexes.clone();
+        rung.map_or(Ok(()), |rung| rung.start(remesher, &mut tried))?;
+        let settings = Settings { near_first, ..options.optimise.clone() };
+        let improved = improve(remesher.simplified, &mut tried, remesher.shape, &settings, aim, context)?;
+        let inverted = inverted(&tried);
+        if best.as_ref().is_none_or(|best| inverted < best.0) {
+            best = Some((inverted, tried, improved));
+        }
+        if inverted == 0 {
+            break;
         }
     }
-    improve(hexes)
+    let (_, found, improved) = best.ok_or_else(|| Error::new(ErrorKind::Internal, "there was nothing to improve"))?;
+    *hexes = found;
+    Ok(improved)
 }

@@ -81,6 +81,11 @@ pub(super) fn improve(
     Ok(Improved { released: job.released, far })
 }
 
+/// How many hexahedra are inverted or flat.
+pub(super) fn inverted(hexes: &Hexes) -> usize {
+    cells_of(hexes).iter().filter(|c| scaled_jacobian(&hexes.mesh.points, c) <= 0.0).count()
+}
+
 /// A mesh on the way to be improved.
 pub(super) struct Job<'a> {
     elements: Elements,
@@ -125,9 +130,7 @@ impl Job<'_> {
 
     /// Whether many hexahedra are inverted.
     fn is_hopeless(&self) -> bool {
-        let cells = cells_of(self.hexes);
-        let inverted = cells.iter().filter(|c| scaled_jacobian(&self.hexes.mesh.points, c) <= 0.0).count();
-        inverted as f64 > HOPELESS * cells.len() as f64
+        inverted(self.hexes) as f64 > HOPELESS * cells_of(self.hexes).len() as f64
     }
 
     /// Puts every surface vertex on what it slides on.
