@@ -195,7 +195,8 @@ impl Args {
             effort: Effort {
                 steps_per_level: self.steps,
                 proof_nodes: self.proof_nodes,
-                time_limit: self.time_limit.map(std::time::Duration::from_secs_f64),
+                // What no duration holds is no limit.
+                time_limit: self.time_limit.and_then(|s| std::time::Duration::try_from_secs_f64(s).ok()),
             },
             simplicity: Some(self.simplicity),
             max_displacement: self.max_displacement,

@@ -27,6 +27,15 @@ fn wrong_usage_is_2() {
 }
 
 #[test]
+fn limits_beyond_the_end_of_the_clock_are_none() {
+    let sandbox = Sandbox::new();
+    sandbox.write_mesh("l.obj", &coarse(Example::SteppedL, CellKind::Quads));
+    for seconds in ["1e19", "1e300"] {
+        sandbox.run(&format!("simplify l.obj -o out-{seconds} --steps 5 --time-limit {seconds}"));
+    }
+}
+
+#[test]
 fn what_cannot_be_read_or_written_is_1() {
     let sandbox = Sandbox::new();
     sandbox.write_mesh("l.obj", &coarse(Example::SteppedL, CellKind::Quads));

@@ -85,36 +85,39 @@ pub struct TradeOff {
 ///
 /// # Errors
 /// [`ErrorKind::Option`] for a scale that is not positive or too large for the lattice and for guides that name what does not exist or
-/// contradict each other, [`ErrorKind::Polycube`] for an input that touches itself, [`ErrorKind::Infeasible`] if no valid polycube with no
+/// contradict each other, [`ErrorKind::Polycube`] for an input that touches itself,
+/// [`ErrorKind::Unsupported`] for more than 65535 levels along one axis, [`ErrorKind::Infeasible`] if no valid polycube with no
 /// more blocks is found that respects the guides, [`ErrorKind::Cancelled`].
 pub fn align(structure: &Structure, input: &[f64], options: &Options, context: &Context) -> Result<Alignment> {
     let before = counts_before(structure, input)?;
     let task = Task::new(structure, input, before, options, context)?;
-    match options.strategy {
-        Strategy::Naive => naive(&task),
-        Strategy::Paper => checked(structure, paper::simplify(&task, context)?),
-        Strategy::Best => checked(structure, search::coarsest(&task, context)?),
-    }
+    let found = match options.strategy {
+        Strategy::Naive => return naive(&task),
+        Strategy::Paper => paper::simplify(&task, context)?,
+        Strategy::Best => search::coarsest(&task, context)?,
+    };
+    check(structure, &found.levels)?;
+    Ok(found)
 }
 
-/// The counts of the input, which must not touch itself.
+/// The counts of the input, which must be a valid polycube.
 fn counts_before(structure: &Structure, input: &[f64]) -> Result<Counts> {
-    if let Some(counts) = Judge::new(structure).counts(&Ranks::new(structure, input)) {
-        return Ok(counts);
+    let levels = |axis: usize| structure.levels.iter().filter(|l| l.axis == axis).count();
+    if (0..3).any(|axis| levels(axis) > usize::from(u16::MAX)) {
+        return Err(Error::new(ErrorKind::Unsupported, "there are more than 65535 levels along one axis")
+            .remedy("cut the polycube into parts"));
     }
-    let arrangement = Arrangement::new(structure, input);
-    if !arrangement.conflicts().is_empty() {
-        return Err(Error::new(ErrorKind::Polycube, "the polycube touches or crosses itself")
-            .remedy("validate it to see where, and move the parts apart"));
-    }
-    Ok(count(&arrangement))
+    Judge::new(structure).counts(&Ranks::new(structure, input)).ok_or_else(|| {
+        Error::new(ErrorKind::Polycube, "the polycube touches or crosses itself, or looks inward")
+            .remedy("validate it to see where, and move the parts apart")
+    })
 }
 
-/// The alignment, if its levels are a valid polycube by the exact check.
-fn checked(structure: &Structure, found: Alignment) -> Result<Alignment> {
-    let placement: Placement = found.levels.iter().map(|&x| x as f64).collect();
+/// Whether levels are a valid polycube by the exact check.
+fn check(structure: &Structure, levels: &[i64]) -> Result<()> {
+    let placement: Placement = levels.iter().map(|&x| x as f64).collect();
     if is_valid(&Arrangement::new(structure, &placement)) {
-        return Ok(found);
+        return Ok(());
     }
     Err(Error::new(ErrorKind::Internal, "the polycube found touches itself"))
 }
@@ -134,7 +137,9 @@ pub fn place(
     context: &Context,
 ) -> Result<Vec<i64>> {
     let task = Task::new(structure, input, before, options, context)?;
-    search::place_trade_off(&task, point, context)
+    let levels = search::place_trade_off(&task, point, context)?;
+    check(structure, &levels)?;
+    Ok(levels)
 }
 
 /// What every strategy is given.
@@ -166,7 +171,7 @@ impl<'a> Task<'a> {
         let targets = scaled(input, options.scale)?;
         let guided = Guided::new(structure, input, &options.guides, options.scale)?;
         let start = guided_start(structure, input, &guided, context)?;
-        let deadline = options.effort.time_limit.map(|limit| Instant::now() + limit);
+        let deadline = options.effort.time_limit.and_then(|limit| Instant::now().checked_add(limit));
         Ok(Self { structure, input, start, targets, guided, before, deadline, options })
     }
 

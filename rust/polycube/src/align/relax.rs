@@ -52,29 +52,29 @@ pub fn relax(
         if placement == valid || knows_valid(&Ranks::new(structure, &placement)) {
             return Ok(placement);
         }
-        let violated = violated(&Arrangement::new(structure, &placement), valid);
+        let Some(violated) = violated(&Arrangement::new(structure, &placement), valid) else { return Ok(placement) };
         if violated.is_empty() {
-            return Ok(placement);
-        }
-        if violated.iter().all(|d| holds(d, &placement)) {
             return Err(Error::new(ErrorKind::Internal, "the surface touches itself though every order is kept"));
         }
         demand.differences.extend(violated);
     }
 }
 
-/// Differences that `arrangement` breaks and that keep it valid; empty when it is valid.
-fn violated(arrangement: &Arrangement, valid: &[f64]) -> Vec<Difference> {
+/// Differences that `arrangement` breaks and that keep it valid; nothing when it is valid.
+fn violated(arrangement: &Arrangement, valid: &[f64]) -> Option<Vec<Difference>> {
     let (structure, placement) = (arrangement.structure(), arrangement.placement());
     let conflicts = arrangement.conflicts();
     let mut found: Vec<Difference> =
         conflicts.iter().flat_map(|c| separations(structure, c, valid, placement)).collect();
-    if conflicts.is_empty() && !arrangement.inside_out().is_empty() {
+    if conflicts.is_empty() {
+        if arrangement.inside_out().is_empty() {
+            return None;
+        }
         found = changed_order(structure, valid, placement);
     }
     found.sort_unstable_by_key(Difference::rank);
     found.dedup();
-    found
+    Some(found)
 }
 
 /// Every strict order of `valid` that `placement` does not keep. O(n²) for n levels.

@@ -157,7 +157,8 @@ impl Guided {
         let apart = self.apart.iter().map(|&[a, b]| if at(a) < at(b) { (a, b) } else { (b, a) });
         let mut found: Vec<Difference> = apart.map(|(low, high)| Difference { low, high, gap: 1 }).collect();
         for axis in 0..3 {
-            let own: Vec<u32> = self.fixed().map(|f| f.0).filter(|l| self.axis_of[*l as usize] == axis).collect();
+            let mut own: Vec<u32> = self.fixed().map(|f| f.0).filter(|l| self.axis_of[*l as usize] == axis).collect();
+            own.sort_by(|&l, &m| at(l).total_cmp(&at(m)));
             for pair in own.windows(2) {
                 let gap = (at(pair[1]).round() - at(pair[0]).round()) as i64;
                 found.push(Difference { low: pair[0], high: pair[1], gap });

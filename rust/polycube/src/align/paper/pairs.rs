@@ -131,7 +131,8 @@ struct Order<'a> {
 impl<'a> Order<'a> {
     fn new(placement: &'a [f64], classes: &Classes, differences: &[Difference]) -> Self {
         let mut above = vec![Vec::new(); placement.len()];
-        for d in differences {
+        // With a negative gap the higher one may lie below.
+        for d in differences.iter().filter(|d| d.gap >= 0) {
             above[classes.of(d.low) as usize].push((classes.of(d.high), d.gap > 0));
         }
         Self { above, placement }

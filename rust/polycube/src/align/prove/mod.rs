@@ -100,8 +100,8 @@ pub struct Proof {
 ///
 /// `budget` is the most partial orders looked at, give or take two; with 0 the bound is that of the root. The
 /// result is the same for the same budget everywhere, unless `time_limit` ends the search first. Whenever it ends,
-/// `bound ≤ optimum ≤ count`. Before the search, O(e²) for the pairs of e edges, up to 1000 of them; for larger
-/// structures only the lengths of edges are propagated. Exponential after that.
+/// `bound ≤ optimum ≤ count`. Before the search, O(n³) for n levels of an axis and O(e²) for the pairs of
+/// e edges, up to 1000 of them; for larger structures only the lengths of edges are propagated. Exponential after that.
 ///
 /// ```
 /// use polycube::align::prove::prove;

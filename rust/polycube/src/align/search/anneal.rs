@@ -61,6 +61,11 @@ impl<'a> Landscape<'a> {
         Ok(Chain { landscape: self, rows: counter(self.structure).ok_or_else(most)?, corners: self.corners() })
     }
 
+    /// Whether it is time to stop.
+    pub fn is_late(&self) -> bool {
+        self.deadline.is_some_and(|d| Instant::now() >= d)
+    }
+
     /// So many of `counts` that the work stays in bounds.
     pub fn affordable(&self, counts: u32) -> u32 {
         let words = counter(self.structure).map_or(1, |rows| rows.words()).max(1);
@@ -137,7 +142,7 @@ impl Chain<'_> {
         for step in 0..schedule.steps {
             if step % 128 == 0 {
                 context.tick(f64::from(step) / f64::from(schedule.steps))?;
-                if self.landscape.deadline.is_some_and(|d| Instant::now() >= d) {
+                if self.landscape.is_late() {
                     break;
                 }
             }

@@ -57,7 +57,7 @@ pub fn walk(
     Ok(())
 }
 
-/// Makes the front denser: chains that may move corners half as far as the coarsest state does, less far, and so on, each from the
+/// Makes the front denser: chains that may move corners seven tenths as far as the coarsest state does, less far, and so on, each from the
 /// coarsest state that keeps its bound.
 pub fn fill(landscape: &Landscape, effort: &Effort, front: &mut Front, context: &Context) -> Result<()> {
     let Some(farthest) = front.states().next().map(State::shape_cost) else { return Ok(()) };

@@ -34,8 +34,7 @@ pub fn coarsest(task: &Task, context: &Context) -> Result<Alignment> {
     if front.is_empty() {
         return simplify(task, context);
     }
-    let chosen = choose(task, &front)?;
-    let levels = place_trade_off(task, &front[chosen], context)?;
+    let (chosen, levels) = choose(task, &front, context)?;
     let placement: Placement = levels.iter().map(|&x| x as f64).collect();
     let after = Some(judge.counts_of(&placement));
     let Proof { bound, proven, nodes, .. } = found.proof;
@@ -53,20 +52,20 @@ fn trade_off(task: &Task, state: &State) -> TradeOff {
     }
 }
 
-/// The trade-off that the options ask for: the coarsest within the displacement allowed or, where none is, the one with
-/// the least displacement.
-fn choose(task: &Task, front: &[TradeOff]) -> Result<usize> {
+/// The trade-off that the options ask for, and its levels: the coarsest within the displacement allowed or, where none is,
+/// the one with the least displacement.
+fn choose(task: &Task, front: &[TradeOff], context: &Context) -> Result<(usize, Vec<i64>)> {
     let options = task.options;
-    let first = TradeOff::index(options.simplicity, front.len());
-    for (index, point) in front.iter().enumerate().skip(first) {
-        let levels = place_in_order(task.structure, &point.ranks(task.structure), &task.targets, &task.guided)?;
+    let mut index = TradeOff::index(options.simplicity, front.len());
+    loop {
+        let levels = place_trade_off(task, &front[index], context)?;
         let placement: Placement = levels.iter().map(|&x| x as f64).collect();
         let moved = task.structure.max_displacement(&task.targets, &placement) / options.scale;
-        if options.max_displacement.is_none_or(|limit| moved <= limit) {
-            return Ok(index);
+        if options.max_displacement.is_none_or(|limit| moved <= limit) || index + 1 == front.len() {
+            return Ok((index, levels));
         }
+        index += 1;
     }
-    Ok(front.len() - 1)
 }
 
 /// The levels of a trade-off: its alignments as near to the input as they can be, on the lattice that is asked for.

@@ -40,7 +40,7 @@ pub fn merge(
         let mut best: Option<(f64, State)> = None;
         promises.sort_by(|p, q| q.0.total_cmp(&p.0));
         for (promise, (level, onto)) in &mut promises {
-            if best.as_ref().is_some_and(|b| b.0 >= *promise) || counts == 0 {
+            if best.as_ref().is_some_and(|b| b.0 >= *promise) || counts == 0 || landscape.is_late() {
                 break;
             }
             context.tick(0.0)?;
