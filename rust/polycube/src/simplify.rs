@@ -2,7 +2,7 @@
 
 use crate::align::{self, Alignment, Effort, Guides, LowerBound, Round, SolverKind, Strategy, TradeOff};
 use crate::context::Context;
-use crate::error::{Error, ErrorKind, Result};
+use crate::error::{Error, ErrorKind, Place, Result};
 use crate::layout::{Counts, Objective, count};
 use crate::map::{Distortion, Flipped, distortion, flipped, morph};
 use crate::mesh::{Mesh, Point};
@@ -199,13 +199,13 @@ pub struct Seconds {
     /// Morphing the mesh and judging it; for a remeshing, making its map one to one, too.
     pub morph: f64,
     /// Making the meshes of a remeshing.
-    #[serde(skip_serializing_if = "is_none")]
+    #[serde(skip_serializing_if = "is_zero")]
     pub mesh: f64,
     /// Optimising its hexahedra.
-    #[serde(skip_serializing_if = "is_none")]
+    #[serde(skip_serializing_if = "is_zero")]
     pub optimise: f64,
     /// Measuring them.
-    #[serde(skip_serializing_if = "is_none")]
+    #[serde(skip_serializing_if = "is_zero")]
     pub measure: f64,
     /// Writing the files.
     pub write: f64,
@@ -215,7 +215,7 @@ pub struct Seconds {
 
 /// Whether no time was spent.
 #[allow(clippy::trivially_copy_pass_by_ref, reason = "serde passes a reference")]
-fn is_none(seconds: &f64) -> bool {
+fn is_zero(seconds: &f64) -> bool {
     *seconds == 0.0
 }
 
@@ -341,14 +341,18 @@ fn finish(
     Ok(Simplified { input: polycube, polycube: result, levels, report, options: options.clone() })
 }
 
-fn check_fit(input: &Input) -> Result<()> {
-    if let Some(shape) = input.shape
-        && (shape.cells != input.polycube.cells || shape.points.len() != input.polycube.points.len())
-    {
+/// Refuses a shape that does not go with the polycube or has coordinates that are no numbers.
+pub(crate) fn check_fit(input: &Input) -> Result<()> {
+    let Some(shape) = input.shape else { return Ok(()) };
+    if shape.cells != input.polycube.cells || shape.points.len() != input.polycube.points.len() {
         return Err(Error::new(ErrorKind::Mismatch, "shape and polycube do not have the same vertices and cells")
             .remedy("give the pair that one deformation connects, with the same numbering"));
     }
-    Ok(())
+    let bad = (0..).zip(&shape.points).find(|(_, p)| !p.iter().all(|x| x.is_finite()));
+    let Some((vertex, _)) = bad else { return Ok(()) };
+    Err(Error::new(ErrorKind::Mesh, "a coordinate of the shape is not a finite number")
+        .at(Place::Vertex(vertex))
+        .remedy("repair or remove the vertex and export the mesh again"))
 }
 
 fn first_of(violations: Vec<Violation>) -> Error {

@@ -1,9 +1,9 @@
 //! Everything that is wrong with a polycube and its shape, for people and programs.
 
-use crate::error::{Error, Place};
+use crate::error::{Error, ErrorKind, Place};
 use crate::map::flipped;
 use crate::mesh::{Face, Mesh, Point};
-use crate::simplify::Input;
+use crate::simplify::{Input, check_fit};
 use crate::structure::{Polycube, Tolerance, Violation};
 
 /// Which of the two meshes a finding is about.
@@ -19,7 +19,7 @@ pub enum Subject {
 /// Something wrong, with its place and remedy.
 #[derive(Clone, Debug, PartialEq, serde::Serialize)]
 pub struct Finding {
-    /// A short name of the rule broken, in `snake_case`: that of a [`Violation`], or `flipped_face`.
+    /// A short name of the rule broken, in `snake_case`: that of a [`Violation`], `flipped_face` or `mismatch`.
     pub rule: &'static str,
     /// Which mesh is concerned.
     pub mesh: Subject,
@@ -40,8 +40,9 @@ pub fn validate(input: &Input, tolerance: &Tolerance) -> Vec<Finding> {
     let Some(shape) = input.shape else {
         return findings;
     };
-    if shape.cells != input.polycube.cells || shape.points.len() != input.polycube.points.len() {
-        findings.push(mismatch());
+    if let Err(Error { kind, place, message, remedy, .. }) = check_fit(input) {
+        let rule = if kind == ErrorKind::Mismatch { "mismatch" } else { "not_finite" };
+        findings.push(Finding { rule, mesh: Subject::Shape, element: place, at: None, message, remedy });
     }
     let cells = flipped(shape, &[]).map(|f| f.cells).unwrap_or_default();
     findings.extend(Middles::new(shape).findings(inverted(&cells), Subject::Shape));
@@ -68,17 +69,6 @@ fn polycube(input: &Input, tolerance: &Tolerance) -> Vec<Finding> {
 
 fn inverted(cells: &[u32]) -> impl Iterator<Item = Violation> + '_ {
     cells.iter().map(|&cell| Violation::InvertedCell { cell })
-}
-
-fn mismatch() -> Finding {
-    Finding {
-        rule: "mismatch",
-        mesh: Subject::Shape,
-        element: None,
-        at: None,
-        message: "shape and polycube do not have the same vertices and cells".to_owned(),
-        remedy: "give the pair that one deformation connects, with the same numbering".to_owned(),
-    }
 }
 
 /// The middles of a mesh's elements.
@@ -139,4 +129,31 @@ fn mean(mesh: &Mesh, vertices: &[u32]) -> Option<[f64; 3]> {
     let points: Option<Vec<&Point>> = vertices.iter().map(|&v| mesh.points.get(v as usize)).collect();
     let points = points?;
     Some([0, 1, 2].map(|axis| points.iter().map(|p| p[axis]).sum::<f64>() / points.len() as f64))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::context::Context;
+    use crate::generate::{Example, example};
+    use crate::mesh::CellKind;
+    use crate::simplify::{Options, simplify};
+
+    #[test]
+    fn a_shape_that_does_not_fit_or_is_not_finite_is_named() {
+        let (polycube, shape) = example(Example::CubeSpikes, 1, CellKind::Triangles).unwrap();
+        let told = |shape: &Mesh| {
+            let input = Input { polycube: &polycube, shape: Some(shape), labels: None };
+            let error = simplify(&input, &Options::default(), &Context::default()).unwrap_err();
+            let found = validate(&input, &Tolerance::default());
+            assert_eq!((found[0].mesh, &found[0].message), (Subject::Shape, &error.message));
+            (found[0].rule, error.kind, error.place)
+        };
+        let mut broken = shape.clone();
+        broken.points[7].y = f64::NAN;
+        assert_eq!(told(&broken), ("not_finite", ErrorKind::Mesh, Some(Place::Vertex(7))));
+        broken = shape;
+        broken.points.pop();
+        assert_eq!(told(&broken), ("mismatch", ErrorKind::Mismatch, None));
+    }
 }
