@@ -77,5 +77,5 @@ def show(context, obj):
 def repaint(settings, _context):
     """Called when the user chooses another colouring."""
     for mesh in bpy.data.meshes:
-        if LAYER in mesh.color_attributes:
+        if not mesh.is_editmode and LAYER in mesh.color_attributes:
             paint(mesh, settings.colour)

@@ -37,8 +37,12 @@ class POLYCUBE_OT_write_hexes(jobs.JobOperator, settings.SearchOptions, settings
         shape = bpy.data.objects[read.shape_name or read.holder]
         placed = in_scene(shape, meshes.hexes.points / read.shape_size)
         fields = {name: getattr(meshes.hexes, name) for name in ("block_id", "label", "scaled_jacobian")}
+        cells = meshes.hexes.cells
+        if shape.matrix_world.determinant() < 0.0:
+            # A mirrored object turns hexahedra inside out; what was below is above then.
+            cells = cells[:, [4, 5, 6, 7, 0, 1, 2, 3]]
         # The file appears whole or not at all.
-        polycube.Mesh(placed, meshes.hexes.cells, kind="hexahedra").write(bpy.path.abspath(self.filepath), fields=fields)
+        polycube.Mesh(placed, cells, kind="hexahedra").write(bpy.path.abspath(self.filepath), fields=fields)
         report = meshes.report
         summary = (
             f"{report['hexes']} hexahedra in {report['hex_blocks']} blocks\n"

@@ -1,6 +1,8 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """The last simplified polycube, kept in memory so that the Simplicity slider can move along what was found."""
 
+import random
+
 import polycube
 
 from . import results
@@ -18,7 +20,8 @@ class _Last:
 
 def remember(source, found):
     """Keeps a result; gives the token by which the scene tells that it shows this one."""
-    _Last.token += 1
+    # A scene keeps its token in its file, so those of other sessions must not be met again by counting.
+    _Last.token = random.randrange(1, 2**31)
     _Last.source, _Last.found, _Last.shown = source, found, found
     return _Last.token
 

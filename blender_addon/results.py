@@ -32,7 +32,7 @@ def _as_key(source, output):
     return output == 'KEY' or (output == 'AUTO' and source.key is not None and source.editable)
 
 
-def place(context, source, simplified, output, token):
+def place(context, source, simplified, output):
     """Makes a new shape key or object of a result and shows it. What was there is kept, and hidden where it is covered."""
     if simplified.polycube is None:
         raise faults.Refused("rounding broke the polycube: " + "; ".join(simplified.notes), "use the strategy Best or Paper")
@@ -40,7 +40,7 @@ def place(context, source, simplified, output, token):
     holder = bpy.data.objects[source.holder]
     obj, key = (holder, _new_key(holder)) if as_key else (_new_object(context, holder, source), "")
     result = context.scene.polycube.result
-    result.token, result.object, result.key, result.meshed = token, obj, key, ""
+    result.object, result.key, result.meshed = obj, key, ""
     update(context, source, simplified)
     show(context, [obj], [holder])
 
@@ -62,6 +62,9 @@ def update(context, source, simplified):
         return
     mesh = obj.data
     points = (simplified.polycube.points / simplified.scale / source.size).astype(np.float32).ravel()
+    if mesh.is_editmode or (3 * len(mesh.vertices), len(mesh.polygons)) != (len(points), source.polygon_count):
+        settings.result.notes = f"{obj.name} is in edit mode or has other faces by now: leave edit mode, or simplify again"
+        return
     if settings.result.key:
         key = mesh.shape_keys.key_blocks.get(settings.result.key)
         if key is None:

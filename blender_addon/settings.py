@@ -93,8 +93,8 @@ class SearchOptions(Options):
     )
     max_distortion: FloatProperty(
         name="Most Distortion",
-        description="How far the map from shape to polycube may be distorted: 1 is a map that keeps angles and "
-        "areas, larger numbers are worse. 0 for no limit",
+        description="How much the map from shape to polycube may bend angles on average, 1 or more: 1 keeps them, "
+        "larger numbers are worse. 0 for no limit",
         min=0.0,
         default=0.0,
         options=FORGET,
@@ -117,7 +117,7 @@ class SearchOptions(Options):
     )
     steps: IntProperty(
         name="Effort",
-        description="How long the strategy Best searches: moves tried per facet in each of four runs",
+        description="How long the strategy Best searches: moves tried per facet in each of eight runs",
         min=1,
         max=100_000,
         default=400,
@@ -134,7 +134,7 @@ class ToleranceOptions(Options):
         name="Angle",
         description="Largest angle between a face of the polycube and the nearest axis",
         min=0.0,
-        max=math.radians(54.0),
+        max=math.radians(45.0),
         default=math.radians(30.0),
         subtype='ANGLE',
         options=FORGET,
@@ -152,7 +152,8 @@ class ToleranceOptions(Options):
     def tolerances(self):
         """These options as the core takes them."""
         return {
-            "angle_tolerance": math.degrees(self.angle_tolerance),
+            # Blender keeps 45 degrees as a little more.
+            "angle_tolerance": min(math.degrees(self.angle_tolerance), 45.0),
             "level_tolerance": self.level_tolerance / 100.0,
         }
 

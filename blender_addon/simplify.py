@@ -22,8 +22,8 @@ class POLYCUBE_OT_simplify(jobs.JobOperator, settings.SimplifyOptions, bpy.types
         return polycube.Job.simplify(read.polycube, read.shape, edge_length=step, **search_options(self, locked))
 
     def finish(self, context, read, found):
-        token = live.remember(read, found)
-        results.place(context, read, found, self.output, token)
+        results.place(context, read, found, self.output)
+        context.scene.polycube.result.token = live.remember(read, found)
         live.tell(context.scene.polycube, self.simplicity)
         before, after = found.counts_before, found.counts_after
         self.report({'INFO'}, f"Patches {before.surface_patches} → {after.surface_patches}, "

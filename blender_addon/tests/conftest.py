@@ -12,7 +12,8 @@ import tempfile
 from pathlib import Path
 
 # Before Blender starts: it must not see the settings of whoever runs the tests.
-os.environ["BLENDER_USER_RESOURCES"] = tempfile.mkdtemp(prefix="polycube-blender-")
+SETTINGS = tempfile.TemporaryDirectory(prefix="polycube-blender-", ignore_cleanup_errors=True)
+os.environ["BLENDER_USER_RESOURCES"] = SETTINGS.name
 
 import bpy
 import pytest

@@ -209,6 +209,17 @@ def test_hexahedra_lie_where_the_shape_is(pair, tmp_path):
     assert np.allclose(found.points.max(axis=0), corners.max(axis=0), atol=0.5)
 
 
+def test_hexahedra_of_a_mirrored_object_are_not_inverted(pair, tmp_path):
+    for obj in pair:
+        obj.scale = (-1.0, 1.0, 1.0)
+    bpy.context.view_layer.update()
+    path = tmp_path / "hexes.vtu"
+    ops.export_hexes(filepath=str(path))
+    found = polycube.read(path)
+    first, along, across, up = (found.points[found.cells[:, i]] for i in (0, 1, 3, 4))
+    assert (np.einsum('ij,ij->i', np.cross(along - first, across - first), up - first) > 0.0).all()
+
+
 def test_a_file_that_cannot_be_written(pair):
     with pytest.raises(RuntimeError, match="no/such/folder"):
         ops.export_hexes(filepath="/no/such/folder/hexes.vtu")

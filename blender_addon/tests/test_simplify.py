@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Check and Simplify: results are the command's, whatever the objects look like."""
 
+import importlib
 import json
 import threading
 
@@ -238,8 +239,6 @@ def test_undo_and_redo(pair, settings):
 
 def test_cancel_changes_nothing(pair, extension):
     """The job is cancelled while the operator waits for it."""
-    import importlib
-
     jobs = importlib.import_module(f"{extension}.jobs")
     before, seen = snapshot(), []
 
@@ -271,6 +270,33 @@ def test_settings_are_saved_and_the_slider_rests_in_another_session(pair, settin
     bpy.ops.wm.open_mainfile(filepath=path)
     settings = bpy.context.scene.polycube
     assert settings.steps == 77 and settings.edge_length == 0.25 and settings.result.patches[1] > 0
+
+
+def test_the_slider_leaves_a_result_of_another_session_alone(extension, pair, settings, tmp_path):
+    ops.simplify()
+    token = settings.result.token
+    path = str(tmp_path / "saved.blend")
+    bpy.ops.wm.save_as_mainfile(filepath=path)
+    bpy.ops.wm.read_homefile(use_factory_startup=True, use_empty=True)
+    # What a new session counts from.
+    live = importlib.import_module(f"{extension}.live")
+    live._Last.token = token - 1
+    live.forget()
+    ops.add_example(example='cube-spikes')
+    ops.simplify()
+    bpy.ops.wm.open_mainfile(filepath=path)
+    settings = bpy.context.scene.polycube
+    before = points_of(settings.result.object.data)
+    settings.simplicity = 0.0
+    assert np.array_equal(points_of(settings.result.object.data), before)
+
+
+def test_the_slider_rests_while_the_result_is_edited(pair, settings):
+    ops.simplify()
+    bpy.ops.object.mode_set(mode='EDIT')
+    settings.simplicity = 0.0
+    assert "edit mode" in settings.result.notes
+    bpy.ops.object.mode_set(mode='OBJECT')
 
 
 def test_edit_mode_is_left_first(pair):
