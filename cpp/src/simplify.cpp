@@ -111,7 +111,7 @@ const std::vector<std::uint32_t>& Simplified::block_of_face() const noexcept { r
 const Mesh& Simplified::polycube() const {
     if (valid()) return state_->polycube;
     throw Error(ErrorKind::polycube, "rounding to the lattice broke the polycube",
-                "use Strategy::best or Strategy::paper, or a larger scale");
+                "use the strategy best or paper, or a finer lattice");
 }
 
 Simplified Simplified::at(const Input& input, double simplicity, const Context& context) const {

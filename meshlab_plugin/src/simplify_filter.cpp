@@ -1,3 +1,4 @@
+#include <array>
 #include <stdexcept>
 
 #include "layers.h"
@@ -47,12 +48,13 @@ void SimplifyFilter::add_parameters(const MeshDocument& document, RichParameterL
 polycube::filter::Settings settings_of(const RichParameterList& parameters) {
     using polycube::Objective;
     using polycube::Strategy;
-    constexpr Strategy strategies[] = {Strategy::best, Strategy::paper, Strategy::naive};
-    constexpr Objective objectives[] = {Objective::surface_patches, Objective::blocks, Objective::blocks_padded};
+    constexpr std::array<Strategy, 3> strategies = {Strategy::best, Strategy::paper, Strategy::naive};
+    constexpr std::array<Objective, 3> objectives = {Objective::surface_patches, Objective::blocks,
+                                                     Objective::blocks_padded};
     polycube::filter::Settings settings;
     polycube::Options& options = settings.options.simplify;
-    options.strategy = strategies[parameters.getEnum("strategy")];
-    options.objective = objectives[parameters.getEnum("objective")];
+    options.strategy = strategies.at(std::size_t(parameters.getEnum("strategy")));
+    options.objective = objectives.at(std::size_t(parameters.getEnum("objective")));
     options.simplicity = parameters.getDynamicFloat("simplicity");
     if (!(*options.simplicity >= 0.0 && *options.simplicity <= 1.0))
         throw std::invalid_argument("The simplicity must be 0 to 1.");

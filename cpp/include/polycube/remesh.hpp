@@ -67,7 +67,7 @@ struct SingularEdge {
 
 /// Blocks and patches as single cells on the shape. Neighbours share whole faces and sides.
 struct Layout {
-    Mesh blocks;                           ///< One hexahedron per block.
+    Mesh blocks;                           ///< One hexahedron per block; none for a surface alone.
     Mesh patches;                          ///< One quadrilateral per patch.
     std::vector<std::int8_t> patch_label;  ///< The label of every patch.
     std::vector<SingularEdge> singular;    ///< The singular edges.

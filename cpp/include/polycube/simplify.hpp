@@ -32,7 +32,7 @@ enum class Objective : std::uint8_t { blocks_padded, blocks, surface_patches };
 
 /// How long `Strategy::best` searches.
 struct Effort {
-    /// Moves tried per level in each of the four chains.
+    /// Moves tried per level in each of the eight chains.
     std::uint32_t steps_per_level = 400;
     /// Partial orders that the proof of a lower bound looks at; 0 for a quick bound.
     std::uint64_t proof_nodes = 200;

@@ -72,7 +72,9 @@ pub fn remesh_summary(report: &RemeshReport) -> String {
     for (name, value) in remesh_facts(report) {
         text += &format!("{name:21}{value}\n");
     }
-    for note in &simplified.notes {
+    // Faults are told apart, as warnings.
+    let faults = report.faults();
+    for note in simplified.notes.iter().filter(|note| !faults.contains(note)) {
         text += &format!("note: {note}\n");
     }
     text

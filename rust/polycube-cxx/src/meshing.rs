@@ -47,7 +47,11 @@ fn remeshed(result: Remeshed) -> polycube::Result<RemeshedData> {
     let Remeshed { simplified, layout, quads, hexes, scaled_jacobian, report } = result;
     Ok(RemeshedData {
         simplified: Box::new(Simplified(simplified)),
-        layout: (&layout).into(),
+        // Without hexahedra the corners of blocks inside have no place.
+        layout: LayoutData {
+            blocks: hexes.as_ref().map_or_else(MeshData::empty, |_| (&layout.blocks).into()),
+            ..(&layout).into()
+        },
         quads: quads.into(),
         has_hexes: hexes.is_some(),
         hexes: hexes_data(hexes, scaled_jacobian),

@@ -2,7 +2,7 @@
 
     python meshio_files.py [FOLDER [SHAPE POLYCUBE]]
 
-Without files an example stands in for them. Needs `pip install polycube meshio`.
+Without files an example stands in for them. Needs `pip install meshio` and this module.
 """
 
 import sys

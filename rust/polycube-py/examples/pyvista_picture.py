@@ -2,7 +2,7 @@
 
     python pyvista_picture.py [FOLDER]
 
-Needs `pip install polycube pyvista`. In a notebook, call `plotter.show()` instead of `screenshot`.
+Needs `pip install pyvista` and this module. In a notebook, call `plotter.show()` instead of `screenshot`.
 """
 
 import sys

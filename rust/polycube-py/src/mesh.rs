@@ -95,7 +95,7 @@ impl PyMesh {
     ///
     /// Args:
     ///     path: the file.
-    ///     fields: numbers per cell by name, (m,) integers or floats; held by ply, vtk and vtu.
+    ///     fields: numbers per cell by name, (m,) integers or floats; held by ply, vtk and vtu; mesh holds `label` or else `block_id`.
     ///
     /// Raises:
     ///     FileError: the file cannot be written.

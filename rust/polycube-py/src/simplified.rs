@@ -232,7 +232,7 @@ impl PySimplified {
 ///     locked_faces: numbers of boundary faces whose facets must not move.
 ///     guides: what else to keep: `{"fixed": facets, "together": [facets], "apart": [[facet, facet]], "symmetry":
 ///         [{"axis": 0, "at": 0.0}]}`, by the numbers of `structure(polycube)`.
-///     steps: how long "best" searches: moves tried per level in each of four chains.
+///     steps: how long "best" searches: moves tried per level in each of eight chains.
 ///     proof_nodes: how long it tries to prove that its result cannot be beaten.
 ///     time_limit: seconds; the search then stops, and the result may differ from run to run.
 ///     lambda_min: Algorithm 1 stops before the weight of staying close falls below this; 1 is one round.

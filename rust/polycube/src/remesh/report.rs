@@ -171,10 +171,7 @@ impl RemeshReport {
     pub fn faults(&self) -> Vec<String> {
         let mut faults = Vec::new();
         if self.inverted > 0 {
-            faults.push(format!(
-                "{} hexahedra are inverted: \"inverted_cells\" in the report tells where",
-                self.inverted
-            ));
+            faults.push(format!("{} hexahedra are inverted: those whose scaled_jacobian is 0 or less", self.inverted));
         }
         if !self.within_hausdorff {
             faults.push(format!(
