@@ -18,7 +18,7 @@ import plyfile
 import pyvista
 
 ROOT = pathlib.Path(__file__).resolve().parent.parent
-POLYCUBE = ROOT / "target/debug/polycube"
+POLYCUBE = ROOT / "target/release/polycube"
 COLOURS = ("red", "green", "blue")
 ARRAYS = ("block_id", "label", "scaled_jacobian")
 # Of each corner of a hexahedron in VTK's order: the ends of its edges, right-handed seen from inside.
