@@ -141,7 +141,7 @@ impl Shifts {
     }
 }
 
-/// A cube with a smaller box on each of its six faces, 48 units long; see [`Example::CubeSpikes`].
+/// A cube with a smaller box on each of its six faces, 52 units long; see [`Example::CubeSpikes`].
 ///
 /// # Errors
 /// None; see [`Example::voxels`].
@@ -196,7 +196,7 @@ pub fn ring(seed: u64) -> Result<Voxels> {
     Voxels::from_difference(&boxes, &[hole])
 }
 
-/// A plate with two holes and bumps on all sides, 60 units long; see [`Example::DoubleTorus`].
+/// A plate with two holes and bumps on all sides, 66 units long; see [`Example::DoubleTorus`].
 ///
 /// # Errors
 /// None; see [`Example::voxels`].

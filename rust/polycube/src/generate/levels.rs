@@ -37,7 +37,6 @@ pub fn perturb(mesh: &Mesh, labels: &[i8], fraction: f64, seed: u64) -> Result<M
         let message = format!("facets cannot move by {fraction} of the shortest edge");
         return Err(Error::new(ErrorKind::Option, message).remedy("use a fraction from 0 up to, but below, 0.5"));
     }
-    check(mesh, labels)?;
     let range = fraction * shortest_edge(mesh);
     let mut rng = SplitMix64::new(seed);
     move_levels(mesh, labels, |_| range * (2.0 * rng.unit() - 1.0))

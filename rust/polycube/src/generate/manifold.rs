@@ -111,9 +111,9 @@ impl Voxels {
     /// Fills the fewest cells around each offending vertex until the surface is manifold. The same
     /// cells are filled every time; solid cells stay, and connected sets stay connected.
     pub fn make_manifold(&mut self) {
-        let count = self.vertices().into_iter().product();
-        let mut waiting: VecDeque<usize> = (0..count).collect();
-        while let Some(index) = waiting.pop_front() {
+        let count: usize = self.vertices().into_iter().product();
+        let (mut all, mut waiting) = (0..count, VecDeque::new());
+        while let Some(index) = all.next().or_else(|| waiting.pop_front()) {
             let vertex = self.vertex(index);
             let (pattern, inside) = self.pattern(vertex);
             if DISC[usize::from(pattern)] {

@@ -52,7 +52,7 @@ pub fn random_with_corners(seed: u64, corners: usize) -> Result<Voxels> {
         return Err(Error::new(ErrorKind::Option, message).remedy("ask for 8 to 1,000,000 corners"));
     }
     let mut rng = SplitMix64::new(seed);
-    let extent = ((corners as f64).cbrt() * EXTENT).round() as i64;
+    let extent = (libm::cbrt(corners as f64) * EXTENT).round() as i64;
     let mut voxels = unit_grid(extent)?;
     voxels.set(&random_box(&mut rng, extent, SIDES), true);
     let mut count = voxels.corners();

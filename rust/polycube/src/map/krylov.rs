@@ -33,16 +33,14 @@ pub(super) fn solve<const N: usize>(a: &Rows, b: &[Values<N>], context: &Context
     let ilu = Ilu::new(a, context)?;
     let size = norms(b);
     let mut x = vec![[0.0; N]; b.len()];
-    let mut left = f64::INFINITY;
     for _ in 0..RUNS {
         let residual = residual(a, b, &x);
-        left = worst(&norms(&residual), &size);
-        if left <= ENOUGH {
+        if worst(&norms(&residual), &size) <= ENOUGH {
             return Ok(x);
         }
         Run::new(a, &ilu, residual, size).iterate(&mut x, context)?;
     }
-    left = left.min(worst(&norms(&residual(a, b, &x)), &size));
+    let left = worst(&norms(&residual(a, b, &x)), &size);
     if left <= ACCEPTABLE {
         return Ok(x);
     }

@@ -88,12 +88,6 @@ impl Elements {
         Ok(Self::new(tets.to_vec(), shapes, weights, 1, Measure::MeanRatio))
     }
 
-    /// Tetrahedra that should be regular, all with one weight and one size.
-    pub fn regular_tetrahedra(tets: &[[u32; 4]]) -> Self {
-        let shapes = vec![regular(); tets.len()];
-        Self::new(tets.to_vec(), shapes, vec![1.0; tets.len()], 1, Measure::MeanRatio)
-    }
-
     /// Hexahedra in VTK's order that should be cubes, all of one size: eight corner tetrahedra each.
     ///
     /// The optimiser then guarantees that the Jacobian is positive at all eight corners. That is what solvers and

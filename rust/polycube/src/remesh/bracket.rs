@@ -28,7 +28,7 @@ impl Bracket {
 
     /// Notes that the mesh of a point was right.
     pub(super) fn right(&mut self, at: usize) {
-        (self.high, self.found) = (at, true);
+        (self.high, self.found) = (self.high.min(at), true);
     }
 
     /// The point in the middle, if there is one and it may be worth a mesh.

@@ -16,7 +16,7 @@ pub(super) const WORTH: f64 = 0.05;
 const CLOSER: f64 = 0.71;
 /// So many tries in a row that are no better end the trying.
 const MISSES: usize = 2;
-/// Points of the front of which coarse meshes are made.
+/// Points of the front of which coarse meshes are made, the last of the front not counted.
 const TRIES: usize = 6;
 /// Points of the front that are meshed finely as long as the best of them is not inverted.
 const MESHED: usize = 5;

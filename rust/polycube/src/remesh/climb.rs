@@ -182,10 +182,10 @@ pub(super) fn finish(
     context: &Context,
 ) -> Result<Improved> {
     let rung = rung.filter(|r| r.worst > 0.0);
-    let ways = [(rung.as_ref(), true), (None, true), (None, false)];
-    let is_possible = |i: &usize| (*i > 0 || rung.is_some()) && (*i < 2 || aim != Aim::Trial);
+    let started = rung.as_ref().map(|rung| (Some(rung), true));
+    let ways = [started, Some((None, true)), (aim != Aim::Trial).then_some((None, false))];
     let mut best: Option<(usize, Hexes, Improved)> = None;
-    for (rung, near_first) in (0..ways.len()).filter(is_possible).map(|i| ways[i]) {
+    for (rung, near_first) in ways.into_iter().flatten() {
         let mut tried = hexes.clone();
         rung.map_or(Ok(()), |rung| rung.start(remesher, &mut tried))?;
         let settings = Settings { near_first, ..options.optimise.clone() };

@@ -36,13 +36,6 @@ impl Layout {
     pub fn block_fields(&self) -> Vec<CellField> {
         vec![CellField::integer("block_id", (0..self.blocks.cells.len() as i32).collect())]
     }
-
-    /// The fields `patch_id` and `label` of `patches`, for mesh files.
-    pub fn patch_fields(&self) -> Vec<CellField> {
-        let labels = self.patch_label.iter().map(|&l| i32::from(l)).collect();
-        let ids = (0..self.patches.cells.len() as i32).collect();
-        vec![CellField::integer("patch_id", ids), CellField::integer("label", labels)]
-    }
 }
 
 impl Remesher<'_> {

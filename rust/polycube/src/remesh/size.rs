@@ -97,7 +97,7 @@ impl Search<'_> {
         let mut best = (f64::INFINITY, guess);
         for step in 0..Self::STEPS {
             context.tick(step as f64 / Self::STEPS as f64)?;
-            let error = (self.count(scale, context)? / self.wanted).ln();
+            let error = libm::log(self.count(scale, context)? / self.wanted);
             if error.abs() < best.0 {
                 best = (error.abs(), scale);
             }
@@ -110,7 +110,7 @@ impl Search<'_> {
                 low = scale
             }
             // Close to a jump of the count both ends stay; the middle of the logarithms halves the rest.
-            let next = scale * (-error / 3.0).exp();
+            let next = scale * libm::exp(-error / 3.0);
             let inside = step < 4 && low < next && next < high;
             scale = if inside { next } else { (low * high).sqrt() };
         }
@@ -130,7 +130,7 @@ impl Search<'_> {
         let Simplified { input, .. } = self.simplified;
         let (volume, surface) = volume_and_surface(&Arrangement::new(&input.structure, self.targets));
         let count = |s: f64| volume * s * s * s + self.padding as f64 * surface * s * s;
-        let (mut low, mut high) = (0.0, (self.wanted / volume).cbrt());
+        let (mut low, mut high) = (0.0, libm::cbrt(self.wanted / volume));
         for _ in 0..100 {
             let middle = f64::midpoint(low, high);
             if count(middle) < self.wanted { low = middle } else { high = middle }

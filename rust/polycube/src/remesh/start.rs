@@ -8,6 +8,7 @@ use super::spacing::spaced;
 use super::warp::on_levels;
 use super::{Size, scale_for, untangle};
 use crate::align::Strategy;
+use crate::align::ranks::Ranks;
 use crate::context::Context;
 use crate::error::Result;
 use crate::mesh::Mesh;
@@ -96,7 +97,8 @@ fn in_order(
     scale: f64,
     context: &Context,
 ) -> Result<Simplified> {
-    found.levels = ranks(&found);
+    let ranks = Ranks::new(&found.input.structure, &found.input.placement);
+    found.levels = ranks.of_level.into_iter().map(i64::from).collect();
     found.report.strategy = Strategy::Paper;
     let scale = match options.size {
         Some(size) => scale_for(input, &found, size, options.padding, context)?,
@@ -107,20 +109,6 @@ fn in_order(
     let note = "rounding to the lattice broke the polycube, so the levels were placed in the order they have";
     result.report.notes.push(note.to_owned());
     Ok(result)
-}
-
-/// The number of every level among those of its axis.
-fn ranks(found: &Simplified) -> Vec<i64> {
-    let placement = &found.input.placement;
-    let levels = &found.input.structure.levels;
-    let rank = |l: usize| {
-        let own = (0..levels.len()).filter(|&k| levels[k].axis == levels[l].axis).map(|k| placement[k]);
-        let mut below: Vec<f64> = own.filter(|x| *x < placement[l]).collect();
-        below.sort_by(f64::total_cmp);
-        below.dedup();
-        below.len() as i64
-    };
-    (0..levels.len()).map(rank).collect()
 }
 
 /// Untangles the map of the surface. What is returned has a better one, refined for meshing, and the shape to go with it; and whether

@@ -76,8 +76,8 @@ impl Charts {
         }
         let mut euler = self.inner_euler(surface);
         let mut is_closed = vec![true; self.labels.len()];
-        for (chart, loops) in self.border_loops(surface) {
-            euler[chart as usize] += i64::from(loops > 0);
+        for chart in self.border_loops(surface) {
+            euler[chart as usize] += 1;
             is_closed[chart as usize] = false;
         }
         let violation = |chart: usize| match (euler[chart], is_closed[chart]) {
@@ -107,19 +107,17 @@ impl Charts {
         twice.iter().map(|t| t / 2).collect()
     }
 
-    /// Every border loop: its chart and its length in mesh edges.
-    fn border_loops(&self, surface: &Surface) -> Vec<(u32, usize)> {
+    /// The chart of every border loop.
+    fn border_loops(&self, surface: &Surface) -> Vec<u32> {
         let mut seen = vec![false; 4 * surface.faces().len()];
         let mut loops = Vec::new();
         for &first in &self.borders {
-            let mut length = 0;
+            if !seen[first as usize] {
+                loops.push(self.left(surface, first));
+            }
             let mut h = first;
             while !std::mem::replace(&mut seen[h as usize], true) {
-                length += 1;
                 h = self.next_border(surface, h);
-            }
-            if length > 0 {
-                loops.push((self.left(surface, first), length));
             }
         }
         loops

@@ -134,9 +134,9 @@ fn label_faces(
     given: Option<&[i8]>,
     tolerance: &Tolerance,
 ) -> Result<(Vec<Label>, f64), Vec<Violation>> {
-    let degrees = |cosine: f64| cosine.clamp(-1.0, 1.0).acos().to_degrees();
+    let degrees = |cosine: f64| libm::acos(cosine.clamp(-1.0, 1.0)).to_degrees();
     // Faces well within the tolerance need no arc cosine.
-    let least = tolerance.degrees.to_radians().cos() + 1e-6;
+    let least = libm::cos(tolerance.degrees.to_radians()) + 1e-6;
     let mut labels = Vec::with_capacity(surface.faces().len());
     let mut violations = Vec::new();
     let mut worst = 1.0_f64;

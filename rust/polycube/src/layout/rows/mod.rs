@@ -274,7 +274,7 @@ fn spread_down<R: Word>(mut seed: R, mut through: R) -> R {
 }
 
 fn walls(structure: &Structure, axes: [usize; 3]) -> Vec<Wall> {
-    let wall = |edge: &&crate::structure::Edge| {
+    let wall = |edge: &crate::structure::Edge| {
         let levels = structure.corners[edge.corners[0] as usize].levels;
         let along_second = edge.axis == axes[1];
         let positive = |axis: usize| {
@@ -289,5 +289,5 @@ fn walls(structure: &Structure, axes: [usize; 3]) -> Vec<Wall> {
             positive: if along_second { [positive(axes[2]), false] } else { [positive(axes[1]), positive(axes[0])] },
         }
     };
-    structure.edges.iter().filter(|e| e.axis != axes[0]).collect::<Vec<_>>().iter().map(wall).collect()
+    structure.edges.iter().filter(|e| e.axis != axes[0]).map(wall).collect()
 }

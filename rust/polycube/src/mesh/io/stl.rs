@@ -65,7 +65,7 @@ fn weld<K: std::hash::Hash + Eq>(count: usize, key: impl Fn(usize) -> K) -> Resu
 /// The corners of all triangles of a file, three after three; at least one triangle.
 pub(super) fn corners(bytes: &[u8]) -> Result<Vec<Point>> {
     // Some binary files begin with "solid" too, but then their length fits their number of triangles.
-    let text = bytes.trim_ascii_start().starts_with(b"solid");
+    let text = bytes.trim_ascii_start().get(..5).is_some_and(|word| word.eq_ignore_ascii_case(b"solid"));
     let corners = match binary_facets(bytes) {
         Some((facets, rest)) if rest.is_empty() || !text => binary(facets),
         _ if text => ascii(bytes)?,

@@ -96,8 +96,9 @@ fn stl_text_is_welded() {
         format!("facet normal nan 0 1\nouter loop\nvertex {a}\nvertex {b}\nvertex {c}\nendloop\nendfacet\n")
     };
     let text = ["solid a vertex\n", &facet("0 0 0,1 0 0,0 1e0 0"), &facet("1 0 0,1 1 0,0 1 -0"), "endsolid"];
-    let mesh = parse(Format::Stl, &text.concat());
-    assert_eq!(triangles(&mesh), [[0, 1, 2], [1, 3, 2]]);
+    for text in [text.concat(), text.concat().to_uppercase()] {
+        assert_eq!(triangles(&parse(Format::Stl, &text)), [[0, 1, 2], [1, 3, 2]]);
+    }
 }
 
 #[test]
