@@ -90,7 +90,7 @@ impl<'a> Assembly<'a> {
 
     /// The quality at `points`.
     pub(super) fn census(&self, points: &[Point]) -> Census {
-        let cells = self.elements.len() / self.elements.per_cell;
+        let cells = self.elements.cells();
         let per_chunk = CHUNK / self.elements.per_cell;
         let chunks = (0..cells.div_ceil(per_chunk)).into_par_iter();
         let part = |i: usize| self.part(points, i * per_chunk..((i + 1) * per_chunk).min(cells));
@@ -107,7 +107,7 @@ impl<'a> Assembly<'a> {
 
     /// Cells with an element of no positive quality.
     pub(super) fn inverted(&self, points: &[Point]) -> Vec<usize> {
-        let cells = self.elements.len() / self.elements.per_cell;
+        let cells = self.elements.cells();
         let bad = |&cell: &usize| self.part(points, cell..cell + 1).inverted > 0;
         (0..cells).into_par_iter().with_min_len(CHUNK / self.elements.per_cell).filter(bad).collect()
     }

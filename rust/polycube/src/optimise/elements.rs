@@ -143,6 +143,11 @@ impl Elements {
         i / self.per_cell
     }
 
+    /// Number of cells.
+    pub(super) fn cells(&self) -> usize {
+        self.len() / self.per_cell
+    }
+
     /// The vertices of a cell, some more than once.
     pub(super) fn vertices_of(&self, cell: usize) -> impl Iterator<Item = u32> {
         self.corners[cell * self.per_cell..(cell + 1) * self.per_cell].iter().flatten().copied()
@@ -150,7 +155,7 @@ impl Elements {
 
     /// The cells with a vertex among some.
     pub(super) fn cells_with(&self, some: &[bool]) -> Vec<usize> {
-        let cells = (0..self.len() / self.per_cell).into_par_iter().with_min_len(LEAST_SHARE / self.per_cell);
+        let cells = (0..self.cells()).into_par_iter().with_min_len(LEAST_SHARE / self.per_cell);
         cells.filter(|&cell| self.vertices_of(cell).any(|v| some[v as usize])).collect()
     }
 

@@ -22,51 +22,53 @@ pub(super) fn untangle(
     settings: &Settings,
     context: &Context,
 ) -> Result<bool> {
-    let before = problem.assembly.inverted(points).len();
+    let mut bad = problem.assembly.inverted(points);
+    let before = bad.len();
     for (i, rings) in RINGS.into_iter().enumerate() {
-        let context = context.stage("untangle", 0.1 * i as f64, 0.1 * (i + 1) as f64);
-        if !untangle_near(problem, points, rings, settings, &context)? {
+        let near = near(problem.elements, points.len(), &bad, rings);
+        let cells = problem.elements.cells_with(&near);
+        if bad.is_empty() || cells.len() as f64 > LARGE * problem.elements.cells() as f64 {
             break;
         }
+        let part = Part::new(problem.elements, problem.constraints.freedom, &near, &cells);
+        let context = context.stage("untangle", 0.1 * i as f64, 0.1 * (i + 1) as f64);
+        untangle_part(problem, points, &part, bad.len(), settings, &context)?;
+        bad = problem.assembly.inverted(points);
     }
-    let left = problem.assembly.inverted(points).len();
-    if left == before {
-        let start = points.clone();
-        untangle::untangle(problem, points, settings, &context.stage("untangle", 0.2, 1.0))?;
-        if problem.assembly.inverted(points).len() >= left {
-            points.copy_from_slice(&start);
-            problem.constraints.project(points);
-        }
+    if bad.len() < before {
+        return Ok(bad.is_empty());
     }
-    Ok(problem.assembly.inverted(points).is_empty())
+    let start = points.clone();
+    untangle::untangle(problem, points, settings, &context.stage("untangle", 0.2, 1.0))?;
+    let left = problem.assembly.census(points).inverted;
+    if left >= before {
+        points.copy_from_slice(&start);
+        problem.constraints.project(points);
+    }
+    Ok(left == 0)
 }
 
-/// Moves the vertices within so many `rings` of inverted elements, if that leaves fewer of them. Whether there may be some left, and
-/// the part was not too large.
-fn untangle_near(
+/// Moves the vertices of a part with so many inverted cells, if that leaves fewer of them.
+fn untangle_part(
     problem: &mut Problem,
     points: &mut [Point],
-    rings: usize,
+    part: &Part,
+    inverted: usize,
     settings: &Settings,
     context: &Context,
-) -> Result<bool> {
-    let bad = problem.assembly.inverted(points);
-    let part = Part::new(problem.elements, problem.constraints.freedom, &bad, rings);
-    if bad.is_empty() || part.elements.len() as f64 > LARGE * problem.elements.len() as f64 {
-        return Ok(false);
-    }
+) -> Result<()> {
     let mut moved: Vec<Point> = part.vertices.iter().map(|&v| points[v as usize]).collect();
     let mut constraints = Constraints::new(&part.freedom, problem.constraints.guides)?;
     constraints.project(&mut moved);
     let mut own = Problem::new(&part.elements, constraints, moved.len());
     untangle::untangle(&mut own, &mut moved, settings, context)?;
     problem.iterations += own.iterations;
-    if own.assembly.inverted(&moved).len() < bad.len() {
+    if own.assembly.census(&moved).inverted < inverted {
         for (&v, point) in part.vertices.iter().zip(moved) {
             points[v as usize] = problem.constraints.place(v as usize, point);
         }
     }
-    Ok(true)
+    Ok(())
 }
 
 /// Some cells with their vertices numbered anew; those that other cells have, too, are held.
@@ -77,15 +79,13 @@ struct Part {
 }
 
 impl Part {
-    /// The cells with vertices within so many `rings` of the cells `bad`, which move.
-    fn new(elements: &Elements, freedom: &[Freedom], bad: &[usize], rings: usize) -> Self {
-        let near = near(elements, freedom.len(), bad, rings);
-        let cells = elements.cells_with(&near);
+    /// Some `cells`, in which the vertices `near` move.
+    fn new(elements: &Elements, freedom: &[Freedom], near: &[bool], cells: &[usize]) -> Self {
         let mut vertices: Vec<u32> = cells.iter().flat_map(|&c| elements.vertices_of(c)).collect();
         vertices.sort_unstable();
         vertices.dedup();
         let own = |v: u32| vertices.partition_point(|&w| w < v) as u32;
-        let elements = elements.some(&cells, own);
+        let elements = elements.some(cells, own);
         let allowed = |&v: &u32| if near[v as usize] { freedom[v as usize] } else { Freedom::Fixed };
         let freedom = vertices.iter().map(allowed).collect();
         Self { vertices, elements, freedom }
