@@ -11,7 +11,6 @@ use std::time::Instant;
 
 mod corners;
 mod front;
-mod regions;
 mod untangle;
 
 pub(crate) use corners::Corners;

@@ -1,9 +1,9 @@
 //! Cotangent weights of a triangulated surface.
 
-use super::sparse::{Rows, Stars};
+use super::sparse::Rows;
 use crate::context::Context;
 use crate::error::Result;
-use crate::mesh::Point;
+use crate::mesh::{Point, Stars};
 
 /// A triangle whose doubled area is below this part of its longest edge squared is too thin for
 /// its cotangents to mean anything.
@@ -20,7 +20,7 @@ pub(super) const CHUNK: usize = 1 << 13;
 /// reproduce linear functions. What is clamped is the triangle: one thinner than [`THINNEST`],
 /// whose cotangents would run to infinity, counts as equilateral.
 pub(super) fn cotangent_weights(points: &[Point], triangles: &[[u32; 3]], context: &Context) -> Result<Rows> {
-    let stars = Stars::new(points.len(), triangles);
+    let stars = Stars::new(points.len(), triangles.iter().copied());
     let angles: Vec<_> = triangles.iter().map(|t| cotangents(t.map(|v| points[v as usize]))).collect();
     let mut rows = Rows::new();
     let mut row = Vec::new();

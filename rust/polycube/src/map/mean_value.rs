@@ -1,10 +1,10 @@
 //! Mean value coordinates of the inner vertices of a tetrahedral mesh.
 
 use super::cotangent::CHUNK;
-use super::sparse::{Rows, Stars};
+use super::sparse::Rows;
 use crate::context::Context;
 use crate::error::Result;
-use crate::mesh::Point;
+use crate::mesh::{Point, Stars};
 
 /// Smallest determinant of the three unit vectors to the corners of a tetrahedron for which the
 /// coordinates are trusted.
@@ -26,7 +26,7 @@ pub(super) fn mean_value_weights(
     inner: &[bool],
     context: &Context,
 ) -> Result<Rows> {
-    let stars = Stars::new(points.len(), tetrahedra);
+    let stars = Stars::new(points.len(), tetrahedra.iter().copied());
     let mut rows = Rows::new();
     let mut row = Vec::new();
     for (v, &inner) in inner.iter().enumerate() {

@@ -1,4 +1,4 @@
-//! Sparse matrices by rows, and how the star of each vertex fills one row.
+//! Sparse matrices by rows.
 
 /// One value per right-hand side.
 pub(crate) type Values<const N: usize> = [f64; N];
@@ -87,39 +87,6 @@ pub(super) fn add_scaled<const N: usize>(sum: &mut Values<N>, a: f64, x: &Values
     }
 }
 
-/// For every vertex the simplices that use it, ascending.
-pub(super) struct Stars {
-    start: Vec<usize>,
-    simplices: Vec<u32>,
-}
-
-impl Stars {
-    /// The stars of `vertices` vertices. Linear time.
-    pub(super) fn new<const K: usize>(vertices: usize, simplices: &[[u32; K]]) -> Self {
-        let mut start = vec![0; vertices + 1];
-        for &v in simplices.as_flattened() {
-            start[v as usize + 1] += 1;
-        }
-        for v in 0..vertices {
-            start[v + 1] += start[v];
-        }
-        let mut next = start.clone();
-        let mut items = vec![0; simplices.len() * K];
-        for (s, simplex) in simplices.iter().enumerate() {
-            for &v in simplex {
-                items[next[v as usize]] = s as u32;
-                next[v as usize] += 1;
-            }
-        }
-        Self { start, simplices: items }
-    }
-
-    /// The simplices around `v`.
-    pub(super) fn of(&self, v: usize) -> &[u32] {
-        &self.simplices[self.start[v]..self.start[v + 1]]
-    }
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -134,13 +101,5 @@ mod tests {
         let mut y = vec![[0.0; 2]; 3];
         rows.multiply(&[[1.0, 2.0], [9.0, 9.0], [10.0, 1.0]], &mut y);
         assert_eq!(y, [[42.0, 8.0], [0.0, 0.0], [50.0, 5.0]]);
-    }
-
-    #[test]
-    fn stars_list_simplices_in_order() {
-        let stars = Stars::new(5, &[[0, 1, 2], [2, 1, 3]]);
-        assert_eq!(stars.of(1), [0, 1]);
-        assert_eq!(stars.of(3), [1]);
-        assert!(stars.of(4).is_empty());
     }
 }

@@ -5,6 +5,7 @@
 
 mod io;
 mod simplices;
+mod stars;
 
 pub use io::{
     CellField, FieldValues, Format, parse_labels, read, read_bytes, read_labels, read_pair, write, write_atomically,
@@ -12,6 +13,7 @@ pub use io::{
 };
 pub(crate) use simplices::split_quad;
 pub use simplices::{Face, Simplices};
+pub(crate) use stars::Stars;
 
 use crate::error::{Error, ErrorKind};
 use nalgebra::Point3;

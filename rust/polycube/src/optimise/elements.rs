@@ -148,20 +148,21 @@ impl Elements {
         self.len() / self.per_cell
     }
 
-    /// The vertices of a cell, some more than once.
-    pub(super) fn vertices_of(&self, cell: usize) -> impl Iterator<Item = u32> {
-        self.corners[cell * self.per_cell..(cell + 1) * self.per_cell].iter().flatten().copied()
+    /// How many cells have so many elements.
+    pub(super) fn cells_in(&self, elements: usize) -> usize {
+        elements / self.per_cell
     }
 
-    /// The cells with a vertex among some.
-    pub(super) fn cells_with(&self, some: &[bool]) -> Vec<usize> {
-        let cells = (0..self.cells()).into_par_iter().with_min_len(LEAST_SHARE / self.per_cell);
-        cells.filter(|&cell| self.vertices_of(cell).any(|v| some[v as usize])).collect()
+    /// The vertices of a cell, each once: those of a tetrahedron, or the one at each corner of a hexahedron.
+    pub(super) fn vertices_of(&self, cell: usize) -> impl Iterator<Item = u32> + Clone {
+        let own = if self.per_cell == 1 { 4 } else { 1 };
+        let corners = &self.corners[cell * self.per_cell..(cell + 1) * self.per_cell];
+        corners.iter().flat_map(move |corner| &corner[..own]).copied()
     }
 
     /// Some of the cells, with vertices numbered by `own`.
-    pub(super) fn some(&self, cells: &[usize], own: impl Fn(u32) -> u32) -> Self {
-        let all = || cells.iter().flat_map(|&cell| cell * self.per_cell..(cell + 1) * self.per_cell);
+    pub(super) fn some(&self, cells: &[u32], own: impl Fn(u32) -> u32) -> Self {
+        let all = || cells.iter().flat_map(|&cell| (0..self.per_cell).map(move |k| cell as usize * self.per_cell + k));
         Self {
             corners: all().map(|e| self.corners[e].map(&own)).collect(),
             references: all().map(|e| self.references[e]).collect(),
@@ -170,8 +171,14 @@ impl Elements {
         }
     }
 
-    /// Makes every reference larger by `factor`.
-    pub(super) fn enlarge(&mut self, factor: f64) {
+    /// Scales the references to the mean volume of the elements, which a fixed boundary keeps.
+    pub(super) fn match_size(&mut self, points: &[Point]) {
+        let dets = self.each(|i| self.weights[i] * self.det(i, points));
+        let weight: f64 = self.weights.iter().sum();
+        let (mean, absolute) = (dets.iter().sum::<f64>() / weight, dets.iter().map(|d| d.abs()).sum::<f64>() / weight);
+        // Corners of tangled hexahedra may cancel each other out.
+        let mean = if mean > 0.05 * absolute { mean } else { absolute };
+        let factor = if mean > 0.0 && mean.is_finite() { libm::cbrt(mean) } else { 1.0 };
         self.references.iter_mut().for_each(|r| *r = r.enlarged(factor));
     }
 

@@ -27,6 +27,7 @@ mod nearest;
 mod polish;
 mod problem;
 mod quality;
+mod region;
 #[cfg(test)]
 mod tests;
 mod untangle;
@@ -47,21 +48,34 @@ use crate::mesh::Point;
 use freedom::Constraints;
 use improve::{Improved, improve};
 use problem::Problem;
+use untangle::Effort;
+
+/// Least gain of a round that untangles all of a mesh.
+const LEAST_GAIN: f64 = 0.1;
+
+/// What moves to untangle a mesh.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Scope {
+    /// What is near inverted elements.
+    Near,
+    /// The same, and all of the mesh where that turns none of them.
+    #[default]
+    NearFirst,
+    /// All of the mesh.
+    Whole,
+}
 
 /// How hard to try. The defaults suit 1,000 to 1,000,000 hexahedra.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Settings {
     /// Weight of equal volumes against similar shapes, in `0..1` without 1; 0.1 by default.
     pub theta: f64,
-    /// Most rounds of untangling, each with a smaller ε; 60 by default.
+    /// What moves to untangle; [`Scope::NearFirst`] by default.
+    pub scope: Scope,
+    /// Most rounds of untangling all of the mesh, each with a smaller ε; 60 by default.
     pub untangle_rounds: usize,
-    /// Most iterations of a round of untangling; 100 by default.
+    /// Most iterations of a round of untangling all of the mesh; 100 by default.
     pub untangle_iterations: usize,
-    /// Whether what is near inverted elements is untangled by itself first; true by default.
-    pub near_first: bool,
-    /// Least share of the energy that a round of untangling is taken to gain, in `0..1` (σ of Garanzha et al.); the larger, the
-    /// faster ε falls; 0.1 by default.
-    pub least_gain: f64,
     /// Rounds of improvement, with exponents growing from 2 to 64; 0 to leave the mesh untangled only; 6 by default.
     pub improve_rounds: usize,
     /// Most iterations of a round of improvement; 30 by default.
@@ -78,10 +92,9 @@ impl Default for Settings {
     fn default() -> Self {
         Self {
             theta: 0.1,
+            scope: Scope::NearFirst,
             untangle_rounds: 60,
             untangle_iterations: 100,
-            near_first: true,
-            least_gain: 0.1,
             improve_rounds: 6,
             improve_iterations: 30,
             average: 4.0,
@@ -137,8 +150,7 @@ pub fn optimise(
     check(points, elements, freedom, settings)?;
     let constraints = Constraints::new(freedom, guides)?;
     let mut elements = elements.clone();
-    let size = mean_size(&elements, points);
-    elements.enlarge(size);
+    elements.match_size(points);
     context.tick(0.0)?;
     let mut problem = Problem::new(&elements, constraints, points.len());
     context.tick(0.0)?;
@@ -167,13 +179,33 @@ fn run(problem: &mut Problem, points: &mut Vec<Point>, settings: &Settings, cont
     problem.constraints.project(points);
     let mut valid = problem.assembly.census(points).inverted == 0;
     if !valid {
-        let way = if settings.near_first { near::untangle } else { untangle::untangle };
-        valid = way(problem, points, settings, &context.stage("untangle", 0.0, 0.4))?;
+        valid = untangle(problem, points, settings, &context.stage("untangle", 0.0, 0.4))?;
     }
-    if valid {
+    if valid && settings.improve_rounds + settings.polish_rounds > 0 {
         raise(problem, points, settings, context)?;
     }
     context.stage("polish", 0.9, 1.0).tick(1.0)
+}
+
+/// The first phase; whether no element is inverted after it.
+fn untangle(problem: &mut Problem, points: &mut Vec<Point>, settings: &Settings, context: &Context) -> Result<bool> {
+    let Settings { theta, untangle_rounds: rounds, untangle_iterations: iterations, scope, .. } = *settings;
+    let before = problem.assembly.census(points).inverted;
+    if scope != Scope::Whole {
+        let left = near::untangle(problem, points, theta, &context.stage("untangle", 0.0, 0.2))?;
+        if left < before || scope == Scope::Near {
+            return Ok(left == 0);
+        }
+    }
+    let start = points.clone();
+    let effort = Effort { theta, rounds, iterations, least_gain: LEAST_GAIN };
+    untangle::untangle(problem, points, &effort, &context.stage("untangle", 0.2, 1.0))?;
+    let left = problem.assembly.census(points).inverted;
+    if left > before {
+        points.copy_from_slice(&start);
+        problem.constraints.project(points);
+    }
+    Ok(left == 0)
 }
 
 /// The phases after untangling. What is good for most elements at first lowers the worst quality, which polishing makes good
@@ -201,13 +233,10 @@ fn check(points: &[Point], elements: &Elements, freedom: &[Freedom], settings: &
         return Err(Error::new(ErrorKind::Mismatch, message).remedy("give one freedom per point"));
     }
     let weights = 0.0..f64::INFINITY;
-    let Settings { theta, average, strength, least_gain, .. } = *settings;
-    let shares = [theta, least_gain].iter().all(|x| (0.0..1.0).contains(x));
-    if !(shares && [average, strength].iter().all(|x| weights.contains(x))) {
-        let message =
-            format!("theta {theta}, average {average}, strength {strength} or least gain {least_gain} is out of range");
-        return Err(Error::new(ErrorKind::Option, message)
-            .remedy("use 0 <= theta < 1, average >= 0, strength >= 0 and 0 <= least gain < 1"));
+    let Settings { theta, average, strength, .. } = *settings;
+    if !((0.0..1.0).contains(&theta) && [average, strength].iter().all(|x| weights.contains(x))) {
+        let message = format!("theta {theta}, average {average} or strength {strength} is out of range");
+        return Err(Error::new(ErrorKind::Option, message).remedy("use 0 <= theta < 1, average >= 0 and strength >= 0"));
     }
     if let Some(v) = points.iter().position(|p| p.coords.iter().any(|x| !x.is_finite())) {
         return Err(Error::new(ErrorKind::Mesh, "a coordinate is not finite").at(Place::Vertex(v as u32)));
@@ -217,14 +246,4 @@ fn check(points: &[Point], elements: &Elements, freedom: &[Freedom], settings: &
         Some(i) => Err(Error::new(ErrorKind::Mesh, format!("a vertex is not among the {} points", points.len()))
             .at(Place::Cell(elements.cell(i) as u32))),
     }
-}
-
-/// The factor by which the references must grow to have the mean volume of the elements, which a fixed boundary keeps.
-fn mean_size(elements: &Elements, points: &[Point]) -> f64 {
-    let dets = elements.each(|i| elements.weights[i] * elements.det(i, points));
-    let weight: f64 = elements.weights.iter().sum();
-    let (mean, absolute) = (dets.iter().sum::<f64>() / weight, dets.iter().map(|d| d.abs()).sum::<f64>() / weight);
-    // Corners of tangled hexahedra may cancel each other out.
-    let mean = if mean > 0.05 * absolute { mean } else { absolute };
-    if mean > 0.0 && mean.is_finite() { libm::cbrt(mean) } else { 1.0 }
 }

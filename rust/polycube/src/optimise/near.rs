@@ -1,77 +1,93 @@
-//! Untangles what is near inverted elements, while all else stays: a small part of the work where there are few.
+//! Untangles what is near inverted cells, while all else stays: a small part of the work where there are few.
 
-use super::Settings;
 use super::elements::Elements;
 use super::freedom::{Constraints, Freedom};
 use super::problem::Problem;
-use super::untangle;
+use super::region::{Region, Room, regions};
+use super::untangle::{Effort, untangle as untangle_all};
+use super::{Settings, raise};
 use crate::context::Context;
 use crate::error::Result;
 use crate::mesh::Point;
+use rayon::prelude::*;
 
-/// Rings of vertices around inverted cells that move: few at first, more where that is not enough.
-const RINGS: [usize; 2] = [2, 4];
-/// It is no less work than moving all where the part is larger than this.
+/// How much around inverted cells moves: little at first, more where that is not enough.
+const ROOMS: [Room; 2] = [Room { rings: 2, cells: 50 }, Room { rings: 3, cells: 200 }];
+
+/// Regions that have more than this part of all cells together are left alone, the largest first: moving all is no more work then.
 const LARGE: f64 = 0.25;
+/// But not where they have fewer elements than this, which take a second at most.
+const SMALL: usize = 50_000;
 
-/// Untangles what is near inverted elements, and all of the mesh if that does not help at all; whether none is inverted then. Sliding
-/// vertices are on their guides before and after.
-pub(super) fn untangle(
-    problem: &mut Problem,
-    points: &mut Vec<Point>,
-    settings: &Settings,
-    context: &Context,
-) -> Result<bool> {
+/// In a small region ε may fall fast, from the mean determinant to a hundredth of it; where that is not enough, there is no room.
+const EFFORT: Effort = Effort { theta: 0.1, rounds: 12, iterations: 200, least_gain: 0.5 };
+
+/// A little smoothing, so that nothing is left all but flat.
+const SMOOTHING: Settings = Settings {
+    theta: EFFORT.theta,
+    scope: super::Scope::Near,
+    untangle_rounds: 0,
+    untangle_iterations: 0,
+    improve_rounds: 1,
+    improve_iterations: 20,
+    average: 0.0,
+    strength: 0.0,
+    polish_rounds: 0,
+};
+
+/// Untangles the regions around inverted cells, each by itself. Returns how many cells are still inverted. Sliding vertices are on their
+/// guides before and after.
+pub(super) fn untangle(problem: &mut Problem, points: &mut [Point], theta: f64, context: &Context) -> Result<usize> {
     let mut bad = problem.assembly.inverted(points);
-    let before = bad.len();
-    for (i, rings) in RINGS.into_iter().enumerate() {
-        let near = near(problem.elements, points.len(), &bad, rings);
-        let cells = problem.elements.cells_with(&near);
-        if bad.is_empty() || cells.len() as f64 > LARGE * problem.elements.cells() as f64 {
+    for (i, room) in ROOMS.into_iter().enumerate() {
+        let [from, to] = [i, i + 1].map(|i| i as f64 / ROOMS.len() as f64);
+        if bad.is_empty() {
             break;
         }
-        let part = Part::new(problem.elements, problem.constraints.freedom, &near, &cells);
-        let context = context.stage("untangle", 0.1 * i as f64, 0.1 * (i + 1) as f64);
-        untangle_part(problem, points, &part, bad.len(), settings, &context)?;
+        let mut regions = regions(problem.elements, &problem.constraints, &bad, room);
+        keep_small(
+            &mut regions,
+            problem.elements.cells_in(SMALL).max((LARGE * problem.elements.cells() as f64) as usize),
+        );
+        untangle_regions(problem, points, &regions, theta, &context.stage("untangle", from, to))?;
         bad = problem.assembly.inverted(points);
     }
-    if bad.len() < before {
-        return Ok(bad.is_empty());
-    }
-    let start = points.clone();
-    untangle::untangle(problem, points, settings, &context.stage("untangle", 0.2, 1.0))?;
-    let left = problem.assembly.census(points).inverted;
-    if left >= before {
-        points.copy_from_slice(&start);
-        problem.constraints.project(points);
-    }
-    Ok(left == 0)
+    Ok(bad.len())
 }
 
-/// Moves the vertices of a part with so many inverted cells, if that leaves fewer of them.
-fn untangle_part(
+/// Leaves the largest out until the rest has so many cells at most.
+fn keep_small(regions: &mut Vec<Region>, most: usize) {
+    regions.sort_by_key(|region| region.cells.len());
+    let mut sum = 0;
+    regions.retain(|region| {
+        sum += region.cells.len();
+        sum <= most
+    });
+}
+
+/// No region sees what moves in another, so all are done at once.
+fn untangle_regions(
     problem: &mut Problem,
     points: &mut [Point],
-    part: &Part,
-    inverted: usize,
-    settings: &Settings,
+    regions: &[Region],
+    theta: f64,
     context: &Context,
 ) -> Result<()> {
-    let mut moved: Vec<Point> = part.vertices.iter().map(|&v| points[v as usize]).collect();
-    let mut constraints = Constraints::new(&part.freedom, problem.constraints.guides)?;
-    constraints.project(&mut moved);
-    let mut own = Problem::new(&part.elements, constraints, moved.len());
-    untangle::untangle(&mut own, &mut moved, settings, context)?;
-    problem.iterations += own.iterations;
-    if own.assembly.census(&moved).inverted < inverted {
-        for (&v, point) in part.vertices.iter().zip(moved) {
+    let part =
+        |i: usize| context.stage("untangle", i as f64 / regions.len() as f64, (i + 1) as f64 / regions.len() as f64);
+    let (elements, constraints) = (problem.elements, &problem.constraints);
+    let solve = |(i, region)| Part::new(elements, constraints, region).untangled(constraints, points, theta, &part(i));
+    let solved = regions.par_iter().enumerate().map(solve).collect::<Result<Vec<_>>>()?;
+    for (iterations, moves) in solved {
+        problem.iterations += iterations;
+        for (v, point) in moves {
             points[v as usize] = problem.constraints.place(v as usize, point);
         }
     }
     Ok(())
 }
 
-/// Some cells with their vertices numbered anew; those that other cells have, too, are held.
+/// The cells of a region with their vertices numbered anew; those that do not move in it are held.
 struct Part {
     vertices: Vec<u32>,
     elements: Elements,
@@ -79,26 +95,38 @@ struct Part {
 }
 
 impl Part {
-    /// Some `cells`, in which the vertices `near` move.
-    fn new(elements: &Elements, freedom: &[Freedom], near: &[bool], cells: &[usize]) -> Self {
-        let mut vertices: Vec<u32> = cells.iter().flat_map(|&c| elements.vertices_of(c)).collect();
+    fn new(elements: &Elements, constraints: &Constraints, region: &Region) -> Self {
+        let mut vertices: Vec<u32> = region.cells.iter().flat_map(|&c| elements.vertices_of(c as usize)).collect();
         vertices.sort_unstable();
         vertices.dedup();
         let own = |v: u32| vertices.partition_point(|&w| w < v) as u32;
-        let elements = elements.some(cells, own);
-        let allowed = |&v: &u32| if near[v as usize] { freedom[v as usize] } else { Freedom::Fixed };
+        let elements = elements.some(&region.cells, own);
+        let moves = |v: &u32| region.moving.binary_search(v).is_ok();
+        let allowed = |v: &u32| if moves(v) { constraints.freedom[*v as usize] } else { Freedom::Fixed };
         let freedom = vertices.iter().map(allowed).collect();
         Self { vertices, elements, freedom }
     }
-}
 
-/// Whether each of `count` vertices is within so many `rings` of the cells `bad`.
-fn near(elements: &Elements, count: usize, bad: &[usize], rings: usize) -> Vec<bool> {
-    let mut near = vec![false; count];
-    bad.iter().flat_map(|&c| elements.vertices_of(c)).for_each(|v| near[v as usize] = true);
-    for _ in 1..rings {
-        let cells = elements.cells_with(&near);
-        cells.iter().flat_map(|&c| elements.vertices_of(c)).for_each(|v| near[v as usize] = true);
+    /// After how many iterations which vertices go where; none if that leaves no fewer cells inverted.
+    fn untangled(
+        mut self,
+        constraints: &Constraints,
+        points: &[Point],
+        theta: f64,
+        context: &Context,
+    ) -> Result<(usize, Vec<(u32, Point)>)> {
+        let mut points: Vec<Point> = self.vertices.iter().map(|&v| points[v as usize]).collect();
+        self.elements.match_size(&points);
+        let mut constraints = Constraints::new(&self.freedom, constraints.guides)?;
+        constraints.project(&mut points);
+        let mut problem = Problem::new(&self.elements, constraints, points.len());
+        let before = problem.assembly.census(&points).inverted;
+        if untangle_all(&mut problem, &mut points, &Effort { theta, ..EFFORT }, context)? {
+            raise(&mut problem, &mut points, &Settings { theta, ..SMOOTHING }, context)?;
+        }
+        let better = problem.assembly.census(&points).inverted < before;
+        let moves = self.vertices.into_iter().zip(points).zip(&self.freedom);
+        let moves = moves.filter(|(_, freedom)| better && **freedom != Freedom::Fixed).map(|(to, _)| to).collect();
+        Ok((problem.iterations, moves))
     }
-    near
 }

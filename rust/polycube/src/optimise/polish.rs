@@ -5,7 +5,7 @@ use super::freedom::Constraints;
 use super::quality::edges;
 use crate::context::Context;
 use crate::error::Result;
-use crate::mesh::Point;
+use crate::mesh::{Point, Stars};
 use nalgebra::Vector3;
 
 /// Elements looked after in a round, from the worst: few, as what they gain in the worst others lose in the average.
@@ -16,33 +16,6 @@ const STEPS: [f64; 5] = [0.3, 0.1, 0.03, 0.01, 0.003];
 const LONGER: usize = 4;
 /// A move must gain this much, so that rounds end.
 const GAIN: f64 = 1e-5;
-
-/// The elements around each vertex.
-struct Stars {
-    starts: Vec<u32>,
-    elements: Vec<u32>,
-}
-
-impl Stars {
-    fn new(elements: &Elements, count: usize) -> Self {
-        let mut starts = vec![0_u32; count + 1];
-        elements.corners.iter().flatten().for_each(|v| starts[*v as usize + 1] += 1);
-        (0..count).for_each(|v| starts[v + 1] += starts[v]);
-        let mut next = starts.clone();
-        let mut around = vec![0; starts[count] as usize];
-        for (e, corner) in elements.corners.iter().enumerate() {
-            for v in corner {
-                around[next[*v as usize] as usize] = e as u32;
-                next[*v as usize] += 1;
-            }
-        }
-        Self { starts, elements: around }
-    }
-
-    fn of(&self, vertex: usize) -> &[u32] {
-        &self.elements[self.starts[vertex] as usize..self.starts[vertex + 1] as usize]
-    }
-}
 
 /// The 26 directions to the neighbours in a grid.
 fn directions() -> impl Iterator<Item = Vector3<f64>> {
@@ -60,7 +33,7 @@ pub(super) fn polish(
     wanted: f64,
     context: &Context,
 ) -> Result<()> {
-    let stars = Stars::new(elements, points.len());
+    let stars = Stars::new(points.len(), elements.corners.iter().copied());
     for round in 0..LONGER * rounds {
         context.tick(round as f64 / (LONGER * rounds) as f64)?;
         let worst = worst_elements(elements, points);

@@ -1,6 +1,5 @@
 //! Turns inverted elements the right way round.
 
-use super::Settings;
 use super::energy::Law;
 use super::lbfgs::Limits;
 use super::problem::Problem;
@@ -15,28 +14,40 @@ const LEAST_EPSILON: f64 = 1e-10;
 /// A few iterations that gain less end the round.
 const TOLERANCE: f64 = 1e-3;
 
+/// How hard to try.
+pub(super) struct Effort {
+    /// Weight of equal volumes against similar shapes.
+    pub(super) theta: f64,
+    /// Most rounds.
+    pub(super) rounds: usize,
+    /// Most iterations of a round.
+    pub(super) iterations: usize,
+    /// Least share of the energy that a round is taken to gain (σ of Garanzha et al.): the larger, the faster ε falls.
+    pub(super) least_gain: f64,
+}
+
 /// Minimises the regularised energy for falling ε until no element is inverted or the rounds are used up. Returns whether
 /// none is. Sliding vertices are on their guides before and after.
 pub(super) fn untangle(
     problem: &mut Problem,
     points: &mut Vec<Point>,
-    settings: &Settings,
+    effort: &Effort,
     context: &Context,
 ) -> Result<bool> {
-    let limits = Limits { iterations: settings.untangle_iterations, tolerance: TOLERANCE };
+    let limits = Limits { iterations: effort.iterations, tolerance: TOLERANCE };
     // Few and slight inversions need not soften the energy of the whole mesh.
     let least = problem.assembly.census(points).least;
     let mut epsilon = (2.0 * least.abs()).clamp(FIRST_EPSILON[0], FIRST_EPSILON[1]);
-    for round in 0..settings.untangle_rounds {
-        context.tick(round as f64 / settings.untangle_rounds as f64)?;
-        let law = Law::Regularised { theta: settings.theta, epsilon };
+    for round in 0..effort.rounds {
+        context.tick(round as f64 / effort.rounds as f64)?;
+        let law = Law::Regularised { theta: effort.theta, epsilon };
         let gain = problem.descend(points, &law, limits, context)?;
         problem.constraints.project(points);
         let census = problem.assembly.census(points);
         if census.inverted == 0 && census.least > 0.0 {
             return Ok(true);
         }
-        epsilon = next_epsilon(epsilon, census.least, gain.clamp(settings.least_gain, 1.0));
+        epsilon = next_epsilon(epsilon, census.least, gain.clamp(effort.least_gain, 1.0));
     }
     Ok(false)
 }

@@ -15,7 +15,7 @@ use crate::align::{self, Options, Strategy};
 use crate::context::Context;
 use crate::error::{Error, ErrorKind, Result};
 use crate::mesh::{Mesh, Point};
-use crate::optimise::{Settings, scaled_jacobian};
+use crate::optimise::{Scope, Settings, scaled_jacobian};
 use crate::simplify::Simplified;
 
 /// A mesh of fewer hexahedra needs none coarser to start from,
@@ -182,13 +182,13 @@ pub(super) fn finish(
     context: &Context,
 ) -> Result<Improved> {
     let rung = rung.filter(|r| r.worst > 0.0);
-    let started = rung.as_ref().map(|rung| (Some(rung), true));
-    let ways = [started, Some((None, true)), (aim != Aim::Trial).then_some((None, false))];
+    let started = rung.as_ref().map(|rung| (Some(rung), Scope::NearFirst));
+    let ways = [started, Some((None, Scope::NearFirst)), (aim != Aim::Trial).then_some((None, Scope::Whole))];
     let mut best: Option<(usize, Hexes, Improved)> = None;
-    for (rung, near_first) in ways.into_iter().flatten() {
+    for (rung, scope) in ways.into_iter().flatten() {
         let mut tried = hexes.clone();
         rung.map_or(Ok(()), |rung| rung.start(remesher, &mut tried))?;
-        let settings = Settings { near_first, ..options.optimise.clone() };
+        let settings = Settings { scope, ..options.optimise.clone() };
         let improved = improve(remesher.simplified, &mut tried, remesher.shape, &settings, aim, context)?;
         let inverted = inverted(&tried);
         if best.as_ref().is_none_or(|best| inverted < best.0) {

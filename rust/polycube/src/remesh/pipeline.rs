@@ -31,7 +31,7 @@ pub struct RemeshOptions {
     pub surface_only: bool,
     /// The largest Hausdorff distance to accept, as a part of the bounding box's diagonal; 0.005 by default.
     pub max_hausdorff: f64,
-    /// How hard the hexahedra are optimised; `near_first` is not looked at, both ways are tried.
+    /// How hard the hexahedra are optimised; `scope` is not looked at, both ways are tried.
     pub optimise: Settings,
 }
 

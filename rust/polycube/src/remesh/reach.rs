@@ -5,7 +5,7 @@ use super::improve::{Job, POOR};
 use super::report::cells_of;
 use crate::context::Context;
 use crate::error::Result;
-use crate::mesh::Point;
+use crate::mesh::{Point, Stars};
 use crate::optimise::{Freedom, Settings, scaled_jacobian};
 
 /// How often vertices are moved there,
@@ -111,7 +111,7 @@ impl Job<'_> {
     }
 
     /// Pulls vertices to the gaps, the farthest first, and one only of a face and those around it.
-    fn pull_all(&mut self, found: &[Gap], tolerance: f64, pull: Pull, around: &[Vec<u32>], held: &mut [Freedom]) {
+    fn pull_all(&mut self, found: &[Gap], tolerance: f64, pull: Pull, around: &Stars, held: &mut [Freedom]) {
         let mut taken = vec![false; held.len()];
         for gap in found {
             let corners = gap.face.vertices();
@@ -122,7 +122,7 @@ impl Job<'_> {
     }
 
     /// Moves one vertex of the face nearest to a gap towards it, if one slides through it and may, and holds it. Whether one did.
-    fn pull(&mut self, gap: &Gap, tolerance: f64, pull: Pull, around: &[Vec<u32>], held: &mut [Freedom]) -> bool {
+    fn pull(&mut self, gap: &Gap, tolerance: f64, pull: Pull, around: &Stars, held: &mut [Freedom]) -> bool {
         let Gap { at, face, .. } = gap;
         let mut corners: Vec<u32> = face.vertices().to_vec();
         let distance = |v: u32| (self.hexes.mesh.points[v as usize] - at).norm();
@@ -134,10 +134,10 @@ impl Job<'_> {
             _ => None,
         };
         let Some((v, guide)) = corners.into_iter().find_map(|v| Some((v as usize, guide(v)?))) else { return false };
-        let (from, least) = (self.hexes.mesh.points[v], KEPT_AROUND * self.worst_of(&around[v]));
+        let (from, least) = (self.hexes.mesh.points[v], KEPT_AROUND * self.worst_of(around.of(v)));
         for &part in pull.parts() {
             self.hexes.mesh.points[v] = guide.contact(&from.lerp(at, part)).point;
-            if pull != Pull::Careful || self.worst_of(&around[v]) > least {
+            if pull != Pull::Careful || self.worst_of(around.of(v)) > least {
                 held[v] = Freedom::Fixed;
                 return true;
             }
@@ -147,12 +147,8 @@ impl Job<'_> {
     }
 
     /// The hexahedra around each vertex.
-    fn around(&self) -> Vec<Vec<u32>> {
-        let mut around = vec![Vec::new(); self.freedom.len()];
-        for (i, cell) in (0..).zip(cells_of(self.hexes)) {
-            cell.iter().for_each(|&v| around[v as usize].push(i));
-        }
-        around
+    fn around(&self) -> Stars {
+        Stars::new(self.freedom.len(), cells_of(self.hexes).iter().copied())
     }
 
     fn worst_of(&self, cells: &[u32]) -> f64 {

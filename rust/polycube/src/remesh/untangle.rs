@@ -4,17 +4,16 @@ use super::refine::Refined;
 use crate::context::Context;
 use crate::error::Result;
 use crate::mesh::{Cells, Mesh, Point};
-use crate::optimise::{Elements, Freedom, Settings, optimise};
+use crate::optimise::{Elements, Freedom, Scope, Settings, optimise};
 use crate::simplify::Corners;
 use crate::structure::Polycube;
 
 /// Untangling alone, and just enough of it.
 const TETRAHEDRA: Settings = Settings {
     theta: 0.1,
+    scope: Scope::NearFirst,
     untangle_rounds: 20,
     untangle_iterations: 50,
-    near_first: true,
-    least_gain: 0.1,
     improve_rounds: 0,
     improve_iterations: 0,
     average: 0.0,

@@ -1,33 +1,20 @@
 //! Turns the right way round what the morph turned over, by moving what is near it.
 
 use super::corners::Corners;
-use super::regions::{Region, Room, regions};
 use crate::context::Context;
 use crate::error::Result;
-use crate::mesh::{Mesh, Point};
-use crate::optimise::{Elements, Freedom, Settings, optimise};
+use crate::mesh::Mesh;
+use crate::optimise::{Elements, Scope, Settings, optimise};
 use crate::structure::Polycube;
-use rayon::prelude::*;
 
-/// How much around what is turned over moves: little at first, more where that is not enough.
-const ROOMS: [Room; 2] = [Room { rings: 2, elements: 50 }, Room { rings: 3, elements: 200 }];
-
-/// Where a larger part of all is turned over, facets are folded as a whole, and moving what is near does not help.
-const FOLDED: f64 = 0.01;
-
-/// Regions that have more elements than this all together are left alone, the largest first: seconds of work.
-const MOST: usize = 50_000;
-
-/// Untangling, and a little smoothing so that nothing is left all but flat. In a small region ε may fall fast, from the mean
-/// determinant to a hundredth of it; where that is not enough, there is no room.
+/// What is right stays as it is.
 const SETTINGS: Settings = Settings {
     theta: 0.1,
-    untangle_rounds: 12,
-    untangle_iterations: 200,
-    near_first: false,
-    least_gain: 0.5,
-    improve_rounds: 1,
-    improve_iterations: 20,
+    scope: Scope::Near,
+    untangle_rounds: 0,
+    untangle_iterations: 0,
+    improve_rounds: 0,
+    improve_iterations: 0,
     average: 0.0,
     strength: 0.0,
     polish_rounds: 0,
@@ -42,57 +29,14 @@ const SETTINGS: Settings = Settings {
 /// [`ErrorKind::Cancelled`](crate::ErrorKind::Cancelled).
 pub(super) fn untangle(polycube: &Polycube, mesh: &mut Mesh, shape: &Mesh, context: &Context) -> Result<()> {
     let mut corners = Corners::new(polycube, mesh, &shape.points);
-    for (i, room) in ROOMS.into_iter().enumerate() {
-        let bad = corners.turned_over();
-        if bad.is_empty() || bad.len() as f64 > FOLDED * corners.tetrahedra.len() as f64 {
-            break;
-        }
-        let part = |i: usize| i as f64 / ROOMS.len() as f64;
-        corners.relax(&bad, room, &context.stage("untangle", part(i), part(i + 1)))?;
+    if corners.turned_over().is_empty() {
+        return Ok(());
     }
+    let elements = Elements::tetrahedra_like(&corners.tetrahedra, &corners.rest)?;
+    optimise(&mut corners.points, &elements, &corners.freedom, &[], &SETTINGS, context)?;
     corners.points.truncate(corners.vertices);
     mesh.points = corners.points;
     Ok(())
-}
-
-impl Corners {
-    /// Moves the vertices around the tetrahedra `bad`, region by region, where that leaves fewer of them.
-    fn relax(&mut self, bad: &[usize], room: Room, context: &Context) -> Result<()> {
-        let mut regions = regions(self, bad, room);
-        regions.sort_by_key(|region| region.elements.len());
-        let mut sum = 0;
-        regions.retain(|region| {
-            sum += region.elements.len();
-            sum <= MOST
-        });
-        // No region sees what moves in another, so all may be done at once.
-        let count = regions.len() as f64;
-        let part = |i: usize| context.stage("untangle", i as f64 / count, (i + 1) as f64 / count);
-        let moves = regions.par_iter().enumerate().map(|(i, region)| self.relaxed(region, &part(i)));
-        for (vertex, point) in moves.collect::<Result<Vec<_>>>()?.into_iter().flatten() {
-            self.points[vertex as usize] = point;
-        }
-        Ok(())
-    }
-
-    /// Where the vertices of a region go; nowhere if that leaves no fewer of its elements turned over.
-    fn relaxed(&self, region: &Region, context: &Context) -> Result<Vec<(u32, Point)>> {
-        let part = region.elements.iter().map(|&e| self.tetrahedra[e as usize]);
-        let mut vertices: Vec<u32> = part.clone().flatten().collect();
-        vertices.sort_unstable();
-        vertices.dedup();
-        let own = |v: u32| vertices.binary_search(&v).map_or(u32::MAX, |i| i as u32);
-        let tetrahedra: Vec<[u32; 4]> = part.map(|t| t.map(own)).collect();
-        let rest: Vec<Point> = vertices.iter().map(|&v| self.rest[v as usize]).collect();
-        let mut points: Vec<Point> = vertices.iter().map(|&v| self.points[v as usize]).collect();
-        let moves = |v: &u32| region.moving.binary_search(v).is_ok();
-        let freedom = |v: &u32| if moves(v) { self.freedom[*v as usize] } else { Freedom::Fixed };
-        let freedom: Vec<Freedom> = vertices.iter().map(freedom).collect();
-        let elements = Elements::tetrahedra_like(&tetrahedra, &rest)?;
-        let report = optimise(&mut points, &elements, &freedom, &[], &SETTINGS, context)?;
-        let better = report.inverted_after < report.inverted_before;
-        Ok(vertices.into_iter().zip(points).filter(|(v, _)| better && moves(v)).collect())
-    }
 }
 
 #[cfg(test)]
