@@ -15,6 +15,7 @@ mod untangle;
 
 pub(crate) use corners::Corners;
 pub use front::Located;
+pub(crate) use untangle::untangle;
 
 /// What is simplified.
 #[derive(Clone, Copy, Debug)]
@@ -332,7 +333,7 @@ fn finish(
         let mut mesh = fit(&polycube, input.polycube, &placement, report.scale, &context.stage("morph", 0.0, 0.6))?;
         if report.strategy == Strategy::Best && !options.keep_flipped {
             let shape = input.shape.unwrap_or(input.polycube);
-            untangle::untangle(&polycube, &mut mesh, shape, &context.stage("untangle", 0.6, 0.9))?;
+            untangle(&polycube, &mut mesh, shape, &context.stage("untangle", 0.6, 0.9))?;
         }
         judge(&mut report, input, &polycube, &mesh, &context.stage("judge", 0.9, 1.0))?;
         result = Some(mesh);

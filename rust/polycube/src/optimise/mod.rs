@@ -198,7 +198,7 @@ fn untangle(problem: &mut Problem, points: &mut Vec<Point>, settings: &Settings,
         }
     }
     let start = points.clone();
-    let effort = Effort { theta, rounds, iterations, least_gain: LEAST_GAIN };
+    let effort = Effort { theta, rounds, iterations, least_gain: LEAST_GAIN, patience: usize::MAX };
     untangle::untangle(problem, points, &effort, &context.stage("untangle", 0.2, 1.0))?;
     let left = problem.assembly.census(points).inverted;
     if left > before {

@@ -20,7 +20,7 @@ const LARGE: f64 = 0.25;
 const SMALL: usize = 50_000;
 
 /// In a small region ε may fall fast, from the mean determinant to a hundredth of it; where that is not enough, there is no room.
-const EFFORT: Effort = Effort { theta: 0.1, rounds: 12, iterations: 200, least_gain: 0.5 };
+const EFFORT: Effort = Effort { theta: 0.1, rounds: 12, iterations: 200, least_gain: 0.5, patience: 3 };
 
 /// A little smoothing, so that nothing is left all but flat.
 const SMOOTHING: Settings = Settings {
@@ -38,31 +38,19 @@ const SMOOTHING: Settings = Settings {
 /// Untangles the regions around inverted cells, each by itself. Returns how many cells are still inverted. Sliding vertices are on their
 /// guides before and after.
 pub(super) fn untangle(problem: &mut Problem, points: &mut [Point], theta: f64, context: &Context) -> Result<usize> {
+    let most = problem.elements.cells_in(SMALL).max((LARGE * problem.elements.cells() as f64) as usize);
     let mut bad = problem.assembly.inverted(points);
     for (i, room) in ROOMS.into_iter().enumerate() {
         let [from, to] = [i, i + 1].map(|i| i as f64 / ROOMS.len() as f64);
         if bad.is_empty() {
             break;
         }
-        let mut regions = regions(problem.elements, &problem.constraints, &bad, room);
-        keep_small(
-            &mut regions,
-            problem.elements.cells_in(SMALL).max((LARGE * problem.elements.cells() as f64) as usize),
-        );
-        untangle_regions(problem, points, &regions, theta, &context.stage("untangle", from, to))?;
+        let context = context.stage("untangle", from, to);
+        let regions = regions(problem.elements, &problem.constraints, &bad, room, most, &context)?;
+        untangle_regions(problem, points, &regions, theta, &context)?;
         bad = problem.assembly.inverted(points);
     }
     Ok(bad.len())
-}
-
-/// Leaves the largest out until the rest has so many cells at most.
-fn keep_small(regions: &mut Vec<Region>, most: usize) {
-    regions.sort_by_key(|region| region.cells.len());
-    let mut sum = 0;
-    regions.retain(|region| {
-        sum += region.cells.len();
-        sum <= most
-    });
 }
 
 /// No region sees what moves in another, so all are done at once.

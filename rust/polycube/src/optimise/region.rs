@@ -2,6 +2,8 @@
 
 use super::elements::Elements;
 use super::freedom::Constraints;
+use crate::context::Context;
+use crate::error::Result;
 use crate::mesh::Stars;
 
 /// A part of a mesh that can be untangled by itself: what moves in it touches no cell outside.
@@ -23,18 +25,39 @@ pub(super) struct Room {
     pub(super) cells: usize,
 }
 
-/// The regions around the cells `bad`. Those without a vertex that can move are in none, as nothing turns them.
-pub(super) fn regions(elements: &Elements, constraints: &Constraints, bad: &[usize], room: Room) -> Vec<Region> {
+/// The regions around the cells `bad`, of `most` cells together: the largest are left out. Cells without a vertex that can move are
+/// in none, as nothing turns them.
+pub(super) fn regions(
+    elements: &Elements,
+    constraints: &Constraints,
+    bad: &[usize],
+    room: Room,
+    most: usize,
+    context: &Context,
+) -> Result<Vec<Region>> {
     let mut growth = Growth::new(elements, constraints, bad);
+    let enough = |r: &Region| (room.cells * r.bad).min(most / 2);
     for ring in 1.. {
-        let regions = growth.regions();
-        let small = |r: &&Region| ring <= room.rings || r.cells.len() < room.cells * r.bad;
+        context.tick(0.0)?;
+        let mut regions = growth.regions();
+        let small = |r: &&Region| ring <= room.rings || r.cells.len() < enough(r);
         let grown = regions.iter().filter(small).filter(|region| growth.grow(region)).count();
         if grown == 0 {
-            return regions;
+            keep_small(&mut regions, most);
+            return Ok(regions);
         }
     }
-    Vec::new()
+    Ok(Vec::new())
+}
+
+/// Leaves the largest out until the rest has so many cells at most.
+fn keep_small(regions: &mut Vec<Region>, most: usize) {
+    regions.sort_by_key(|region| region.cells.len());
+    let mut sum = 0;
+    regions.retain(|region| {
+        sum += region.cells.len();
+        sum <= most
+    });
 }
 
 /// Vertices that move, ring by ring more of them.
@@ -111,49 +134,79 @@ impl<'a> Growth<'a> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::generate::{Cuboid, Voxels};
-    use crate::mesh::CellKind;
-    use crate::structure::{Polycube, Tolerance};
+    use crate::optimise::Freedom;
 
-    const ROOM: Room = Room { rings: 2, elements: 50 };
+    const ROOM: Room = Room { rings: 2, cells: 50 };
+    const SIDE: usize = 12;
 
-    fn cube(kind: CellKind, side: i64) -> Corners {
-        let mesh = Voxels::from_boxes(&[Cuboid::new([0; 3], [side; 3])]).unwrap().mesh(kind, 1.0).unwrap();
-        let polycube = Polycube::new(&mesh, None, &Tolerance::default()).unwrap();
-        Corners::new(&polycube, &mesh, &mesh.points)
+    /// A cube of cubes.
+    fn cube() -> Elements {
+        let at = |[x, y, z]: [usize; 3]| (x + (SIDE + 1) * (y + (SIDE + 1) * z)) as u32;
+        let cells = (0..SIDE.pow(3)).map(|i| [i % SIDE, i / SIDE % SIDE, i / SIDE / SIDE]).map(|[x, y, z]| {
+            let layer = |z| [[x, y, z], [x + 1, y, z], [x + 1, y + 1, z], [x, y + 1, z]].map(at);
+            let [low, high] = [layer(z), layer(z + 1)];
+            [low[0], low[1], low[2], low[3], high[0], high[1], high[2], high[3]]
+        });
+        Elements::cubes(&cells.collect::<Vec<_>>())
+    }
+
+    /// Vertices inside the cube are free, so many layers below its surface.
+    fn inside(layers: usize) -> Vec<Freedom> {
+        let side = SIDE + 1;
+        let place = |v: usize| [v % side, v / side % side, v / side / side];
+        let deep = |v| place(v).iter().all(|&x| (layers..side - layers).contains(&x));
+        (0..side.pow(3)).map(|v| if deep(v) { Freedom::Free } else { Freedom::Fixed }).collect()
+    }
+
+    fn found(elements: &Elements, constraints: &Constraints, bad: &[usize], room: Room) -> Vec<Region> {
+        regions(elements, constraints, bad, room, elements.cells(), &Context::default()).unwrap()
     }
 
     #[test]
-    fn what_moves_touches_no_element_outside_its_region() {
-        for kind in [CellKind::Triangles, CellKind::Tetrahedra] {
-            let corners = cube(kind, 12);
-            let bad = [0, corners.tetrahedra.len() / 2, corners.tetrahedra.len() - 1];
-            let found = regions(&corners, &bad, ROOM);
-            assert!((2..=3).contains(&found.len()), "{kind}");
-            for region in &found {
-                assert!(region.elements.len() >= 50 * region.bad, "{kind}");
-                assert!(region.moving.iter().all(|&v| corners.freedom[v as usize] != Freedom::Fixed));
-                for (e, t) in corners.tetrahedra.iter().enumerate() {
-                    let touches = t.iter().any(|v| region.moving.binary_search(v).is_ok());
-                    assert!(!touches || region.elements.binary_search(&(e as u32)).is_ok(), "{kind}, element {e}");
-                }
+    fn the_largest_regions_are_left_out() {
+        let (elements, freedom) = (cube(), inside(1));
+        let constraints = Constraints::new(&freedom, &[]).unwrap();
+        let middle = elements.cells() / 2;
+        let bad = [0, middle];
+        let room = Room { rings: 1, cells: 0 };
+        let of = |most| regions(&elements, &constraints, &bad, room, most, &Context::default()).unwrap();
+        let [small, large] = &of(elements.cells())[..] else { panic!("two regions") };
+        assert!(small.cells.contains(&0) && large.cells.contains(&(middle as u32)));
+        assert_eq!(of(small.cells.len() + large.cells.len() - 1).len(), 1);
+        assert!(of(small.cells.len() - 1).is_empty());
+    }
+
+    #[test]
+    fn what_moves_touches_no_cell_outside_its_region() {
+        let (elements, freedom) = (cube(), inside(1));
+        let constraints = Constraints::new(&freedom, &[]).unwrap();
+        let bad = [0, elements.cells() / 2, elements.cells() - 1];
+        let found = found(&elements, &constraints, &bad, ROOM);
+        assert_eq!(found.len(), 3);
+        for region in &found {
+            assert!(region.cells.len() >= ROOM.cells * region.bad);
+            assert!(region.moving.iter().all(|&v| freedom[v as usize] == Freedom::Free));
+            for cell in 0..elements.cells() {
+                let touches = elements.vertices_of(cell).any(|v| region.moving.binary_search(&v).is_ok());
+                assert!(!touches || region.cells.binary_search(&(cell as u32)).is_ok(), "cell {cell}");
             }
         }
     }
 
     #[test]
     fn what_cannot_be_turned_is_left_out() {
-        let corners = cube(CellKind::Triangles, 1);
-        assert!(regions(&corners, &[0, 1], ROOM).is_empty());
+        let (elements, freedom) = (cube(), inside(2));
+        let constraints = Constraints::new(&freedom, &[]).unwrap();
+        assert!(found(&elements, &constraints, &[0, elements.cells() - 1], ROOM).is_empty());
     }
 
     #[test]
-    fn a_facet_bounds_its_regions() {
-        let corners = cube(CellKind::Triangles, 12);
-        let inside = |t: &[u32; 4]| t.iter().all(|&v| corners.freedom[v as usize] != Freedom::Fixed);
-        let bad = corners.tetrahedra.iter().position(inside).unwrap();
-        let found = regions(&corners, &[bad], Room { rings: 100, elements: 0 });
+    fn what_is_held_bounds_its_regions() {
+        let (elements, freedom) = (cube(), inside(3));
+        let constraints = Constraints::new(&freedom, &[]).unwrap();
+        let found = found(&elements, &constraints, &[elements.cells() / 2], Room { rings: 100, cells: 0 });
         assert_eq!(found.len(), 1);
-        assert_eq!(found[0].elements.len(), 2 * 12 * 12);
+        assert_eq!(found[0].moving.len(), (SIDE - 5).pow(3));
+        assert_eq!(found[0].cells.len(), (SIDE - 4).pow(3));
     }
 }

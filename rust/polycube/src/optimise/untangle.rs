@@ -11,6 +11,8 @@ use crate::mesh::Point;
 const FIRST_EPSILON: [f64; 2] = [0.01, 1.0];
 /// Where ε ends: as good as the true energy.
 const LEAST_EPSILON: f64 = 1e-10;
+/// See [`Effort::patience`].
+const SLOW: f64 = 0.7;
 /// A few iterations that gain less end the round.
 const TOLERANCE: f64 = 1e-3;
 
@@ -24,6 +26,8 @@ pub(super) struct Effort {
     pub(super) iterations: usize,
     /// Least share of the energy that a round is taken to gain (σ of Garanzha et al.): the larger, the faster ε falls.
     pub(super) least_gain: f64,
+    /// Where so many rounds leave more than [`SLOW`] of the cells inverted, there is no room, and no more rounds are made.
+    pub(super) patience: usize,
 }
 
 /// Minimises the regularised energy for falling ε until no element is inverted or the rounds are used up. Returns whether
@@ -38,6 +42,7 @@ pub(super) fn untangle(
     // Few and slight inversions need not soften the energy of the whole mesh.
     let least = problem.assembly.census(points).least;
     let mut epsilon = (2.0 * least.abs()).clamp(FIRST_EPSILON[0], FIRST_EPSILON[1]);
+    let mut counts = Vec::new();
     for round in 0..effort.rounds {
         context.tick(round as f64 / effort.rounds as f64)?;
         let law = Law::Regularised { theta: effort.theta, epsilon };
@@ -46,6 +51,10 @@ pub(super) fn untangle(
         let census = problem.assembly.census(points);
         if census.inverted == 0 && census.least > 0.0 {
             return Ok(true);
+        }
+        counts.push(census.inverted);
+        if round >= effort.patience && census.inverted as f64 > SLOW * counts[round - effort.patience] as f64 {
+            break;
         }
         epsilon = next_epsilon(epsilon, census.least, gain.clamp(effort.least_gain, 1.0));
     }

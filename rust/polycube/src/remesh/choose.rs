@@ -59,7 +59,7 @@ pub(super) struct Choice<'a> {
 }
 
 impl<'a> Choice<'a> {
-    /// Makes coarse meshes of the polycube `found` and, if that is poor, of others from the same front with more blocks, until one is
+    /// Untangles the surface of the polycube `found`, makes coarse meshes of its inside if that is wanted, and, if one is folded or poor, does so of others from the same front with more blocks, until one is
     /// good or none gets better. The choice is left to the options where they say which point of the front, how far corners may
     /// move, or what must hold.
     ///
@@ -160,9 +160,14 @@ impl<'a> Choice<'a> {
         let (report, first) = (&mut result.report, &self.first.report);
         let after = report.after.filter(|_| report.chosen != first.chosen);
         if let (Some(ours), Some(least)) = (after, first.after) {
+            let (counted, cells) = if self.options.surface_only {
+                (format!("{} patches instead of {}", ours.surface_patches, least.surface_patches), "quadrilaterals")
+            } else {
+                (format!("{} blocks instead of {}", ours.blocks_padded, least.blocks_padded), "hexahedra")
+            };
             let note = format!(
-                "{} blocks instead of {}: fewer made bad hexahedra or a mesh too far from the shape; a limit on the displacement or a simplicity chooses otherwise",
-                ours.blocks_padded, least.blocks_padded
+                "{}: fewer made bad {} or a mesh too far from the shape; a limit on the displacement or a simplicity chooses otherwise",
+                counted, cells
             );
             report.notes.push(note);
         }
@@ -184,7 +189,7 @@ fn value(start: &Start) -> f64 {
 fn others(found: &Simplified, options: &RemeshOptions) -> Vec<usize> {
     let wanted = &options.simplify;
     let told = wanted.simplicity.is_some() || wanted.max_displacement.is_some() || wanted.max_distortion.is_some();
-    let Some(chosen) = found.report.chosen.filter(|_| !told && !options.surface_only) else { return Vec::new() };
+    let Some(chosen) = found.report.chosen.filter(|_| !told) else { return Vec::new() };
     let front = &found.report.front;
     let mut points = vec![chosen];
     while let Some(&now) = points.last()

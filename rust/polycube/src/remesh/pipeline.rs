@@ -6,13 +6,13 @@ use super::improve::{Aim, Improved};
 use super::report::{RemeshReport, Stages, cells_of, diagonal, measure};
 use super::start::Start;
 
-use super::{Hexes, Layout, Quads, Remesher, Size, untangle};
+use super::{Hexes, Layout, Quads, Remesher, Size, hausdorff};
 use crate::context::Context;
 use crate::error::{Error, ErrorKind, Result};
 use crate::layout::Objective;
 use crate::mesh::Mesh;
 use crate::optimise::Settings;
-use crate::simplify::{self, Input, Simplified, simplify};
+use crate::simplify::{self, Input, Simplified, simplify, untangle};
 use std::time::Instant;
 
 /// How a shape is meshed.
@@ -94,7 +94,7 @@ pub fn remesh(input: &Input, options: &RemeshOptions, context: &Context) -> Resu
     choice.explain(&mut simplified);
     simplified.report.seconds = spent;
     let shape = input.shape.unwrap_or(input.polycube);
-    untangle(&mut simplified, input, &context.stage("map", 0.9, 0.95))?;
+    untangle_volume(&mut simplified, input, &context.stage("map", 0.9, 0.95))?;
     let report = measure(&simplified, &meshed, shape, options, stages, &context.stage("measure", 0.95, 1.0))?;
     let Meshed { layout, quads, hexes, scaled_jacobian, .. } = meshed;
     let mut result = Remeshed { simplified, layout, quads, hexes, scaled_jacobian, report };
@@ -120,6 +120,7 @@ impl Made {
     fn wrong(&self) -> Option<Wrong> {
         match &self.meshed {
             Meshed { inverted: 1.., .. } => Some(Wrong::Inverted),
+            Meshed { folded: 1.., hexes: None, .. } => Some(Wrong::Inverted),
             Meshed { far, .. } if *far > 0.0 => Some(Wrong::Far),
             Meshed { worst, .. } if *worst < GOOD - WORTH => Some(Wrong::Poor),
             _ => None,
@@ -139,7 +140,7 @@ impl Made {
     /// Whether it is rather to be had than `other`: one with fewer inverted hexahedra, then one nearer to the shape, then the one with
     /// fewer blocks, unless the other is clearly better.
     fn is_better(&self, other: &Self) -> bool {
-        let rank = |made: &Self| (made.meshed.inverted, made.meshed.far);
+        let rank = |made: &Self| (made.meshed.bad(), made.meshed.far);
         let more = if self.blocks() > other.blocks() { WORTH } else { -WORTH };
         rank(self) < rank(other) || rank(self) == rank(other) && self.value() > other.value() + more
     }
@@ -157,10 +158,15 @@ fn best(
     // Each takes half of the progress that is left: mostly there is one.
     let mut done = 0.0;
     while let Some(start) = choice.next(last, &context.stage("mesh", done, done))? {
-        let Start { simplified, map, shape, rung, spaced, .. } = start;
+        let Start { simplified, map, shape, rung, spaced, folded, .. } = start;
         let share = (1.0 - done) / 2.0;
-        let mut meshed = mesh(&map, &shape, rung, options, stages, &context.stage("mesh", done, done + share))?;
-        meshed.spaced = spaced;
+        let context = context.stage("mesh", done, done + share);
+        let mut meshed = if options.surface_only {
+            mesh_surface(&map, &shape, stages, &context)?
+        } else {
+            mesh_volume(&map, &shape, rung, options, stages, &context)?
+        };
+        (meshed.spaced, meshed.folded) = (spaced, folded);
         done += share;
         let made = Made { simplified, meshed };
         let (at, wrong) = (made.simplified.report.chosen.unwrap_or(0), made.wrong());
@@ -169,18 +175,18 @@ fn best(
         } else if wrong == Some(Wrong::Poor) && best.as_ref().is_some_and(|best| best.wrong() == wrong) {
             break;
         }
-        last = Some(Verdict { at, wrong, inverted: best.as_ref().is_some_and(|b| b.meshed.inverted > 0) });
+        last = Some(Verdict { at, wrong, inverted: best.as_ref().is_some_and(|b| b.meshed.bad() > 0) });
     }
     let found = best.map(|Made { simplified, meshed }| (simplified, meshed));
     found.ok_or_else(|| Error::new(ErrorKind::Internal, "there was nothing to mesh"))
 }
 
-/// Turns flipped tetrahedra of the polycube the right way round, as far as that goes.
-fn untangle(simplified: &mut Simplified, input: &Input, context: &Context) -> Result<()> {
+/// Turns flipped cells of a volume's polycube the right way round, as far as that goes.
+fn untangle_volume(simplified: &mut Simplified, input: &Input, context: &Context) -> Result<()> {
     let shape = input.shape.unwrap_or(input.polycube);
     let Simplified { input: polycube, polycube: Some(mesh), report, .. } = simplified else { return Ok(()) };
     if mesh.cells.is_volume() && !report.flipped.cells.is_empty() {
-        untangle::volume(polycube, mesh, &shape.points, context)?;
+        untangle(polycube, mesh, shape, context)?;
     }
     context.tick(1.0)?;
     report.rejudge(input, polycube, mesh)
@@ -196,15 +202,52 @@ pub(super) struct Meshed {
     inverted: usize,
     /// The worst; 1 where there are none.
     worst: f64,
-    /// How far the shape is from the surface; 0 if it is within the bound, as far as could be seen.
+    /// How far the shape is from the surface; 0 if it is within the bound, as far as could be seen, or, without hexahedra, within the
+    /// length of a quadrilateral's side.
     far: f64,
     /// Vertices that had to leave their corners and edges.
     pub(super) released: usize,
     /// Whether the levels were spaced by the shape.
     pub(super) spaced: bool,
+    /// How many triangles of the map of the surface are turned over if it is folded; 0 otherwise.
+    pub(super) folded: usize,
 }
 
-fn mesh(
+impl Meshed {
+    /// How much of it is the wrong way round: of hexahedra, or of the map where there are none.
+    fn bad(&self) -> usize {
+        if self.hexes.is_some() { self.inverted } else { self.folded }
+    }
+}
+
+/// The quadrilaterals and patches of a surface alone.
+fn mesh_surface(map: &Simplified, shape: &Mesh, stages: &mut Stages, context: &Context) -> Result<Meshed> {
+    let start = Instant::now();
+    let remesher = Remesher::new(map, shape, &context.stage("mesh", 0.0, 0.5))?;
+    let quads = remesher.quads(&context.stage("mesh", 0.5, 0.8))?;
+    let points = remesher.surface_points(&context.stage("mesh", 0.8, 1.0))?.points;
+    let layout = remesher.layout(&points, 0)?;
+    // A distorted map may be one to one and still lead quadrilaterals astray.
+    let distance = if quads.inverted() > 0 { hausdorff(&quads.mesh, shape, context)? } else { 0.0 };
+    let far = if distance > quads.mean_side() { distance } else { 0.0 };
+    stages.mesh += start.elapsed().as_secs_f64();
+    let scaled_jacobian = Vec::new();
+    Ok(Meshed {
+        layout,
+        quads,
+        hexes: None,
+        scaled_jacobian,
+        inverted: 0,
+        worst: 1.0,
+        far,
+        released: 0,
+        spaced: false,
+        folded: 0,
+    })
+}
+
+/// The hexahedra of a solid with the quadrilaterals and patches of their surface.
+fn mesh_volume(
     map: &Simplified,
     shape: &Mesh,
     rung: Option<Rung>,
@@ -215,23 +258,6 @@ fn mesh(
     let start = Instant::now();
     let remesher = Remesher::new(map, shape, &context.stage("mesh", 0.0, 0.05))?;
     let mut quads = remesher.quads(&context.stage("mesh", 0.05, 0.1))?;
-    if options.surface_only {
-        let points = remesher.surface_points(&context.stage("mesh", 0.1, 1.0))?.points;
-        let layout = remesher.layout(&points, 0)?;
-        stages.mesh += start.elapsed().as_secs_f64();
-        let scaled_jacobian = Vec::new();
-        return Ok(Meshed {
-            layout,
-            quads,
-            hexes: None,
-            scaled_jacobian,
-            inverted: 0,
-            worst: 1.0,
-            far: 0.0,
-            released: 0,
-            spaced: false,
-        });
-    }
     let mut hexes = remesher.hexes(options.padding, &context.stage("mesh", 0.1, 0.2))?;
     let optimising = Instant::now();
     stages.mesh += (optimising - start).as_secs_f64();
@@ -251,5 +277,16 @@ fn mesh(
     let inverted = scaled_jacobian.iter().filter(|q| q.is_nan() || **q <= 0.0).count();
     let worst = scaled_jacobian.iter().copied().fold(1.0, f64::min);
     context.tick(1.0)?;
-    Ok(Meshed { layout, quads, hexes: Some(hexes), scaled_jacobian, inverted, worst, far, released, spaced: false })
+    Ok(Meshed {
+        layout,
+        quads,
+        hexes: Some(hexes),
+        scaled_jacobian,
+        inverted,
+        worst,
+        far,
+        released,
+        spaced: false,
+        folded: 0,
+    })
 }

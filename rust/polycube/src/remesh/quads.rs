@@ -36,6 +36,19 @@ impl Quads {
         }
     }
 
+    /// How many are inverted or flat: of no positive scaled Jacobian.
+    pub(super) fn inverted(&self) -> usize {
+        self.scaled_jacobian().iter().filter(|q| q.is_nan() || **q <= 0.0).count()
+    }
+
+    /// The mean length of their sides, in the units of the shape.
+    pub(super) fn mean_side(&self) -> f64 {
+        let at = |v: u32| self.mesh.points[v as usize];
+        let around = |quad: &[u32]| (0..4).map(|k| (at(quad[k]) - at(quad[(k + 1) % 4])).norm()).sum::<f64>();
+        let count = self.mesh.cells.len();
+        (0..count).map(|i| around(self.mesh.cells.cell(i))).sum::<f64>() / (4 * count.max(1)) as f64
+    }
+
     /// The fields `label`, `patch_id` and `block_id` for mesh files.
     pub fn fields(&self) -> Vec<CellField> {
         let numbers = |ids: &[u32]| ids.iter().map(|&i| i as i32).collect();

@@ -8,6 +8,8 @@ use crate::mesh::{Cells, Mesh};
 use crate::optimise::{BARS, cell_qualities, statistics};
 use crate::simplify::{self, Simplified};
 
+/// More cells than this are not advised.
+const MOST_ADVISED: f64 = 1e7;
 /// How many inverted hexahedra are named one by one.
 pub const MOST_LISTED: usize = 1000;
 
@@ -23,6 +25,11 @@ pub struct RemeshReport {
     pub spaced: bool,
     /// Number of quadrilaterals.
     pub quads: usize,
+    /// Quadrilaterals whose scaled Jacobian is not positive.
+    pub inverted_quads: usize,
+    /// For a surface alone: how many triangles of its map onto the polycube are turned over, where more than one in a thousand is; 0
+    /// otherwise. Quadrilaterals around them lie wrong.
+    pub folded: usize,
     /// Number of hexahedra; 0 for a surface alone.
     pub hexes: usize,
     /// Blocks of the base complex of the hexahedra, counted on the finished mesh.
@@ -113,6 +120,8 @@ pub(super) fn measure(
         simplify: simplified.report.clone(),
         spaced: meshed.spaced,
         quads: meshed.quads.mesh.cells.len(),
+        inverted_quads: meshed.quads.inverted(),
+        folded: if some { 0 } else { meshed.folded },
         hexes: found.cells,
         hex_blocks: meshed.hexes.as_ref().map_or(Ok(0), count_blocks)?,
         padding: options.padding,
@@ -152,19 +161,22 @@ impl RemeshReport {
         self.simplify.seconds = simplify::Seconds { morph, mesh, optimise, measure, total, ..old };
     }
 
-    /// Whether no hexahedron is inverted and the surface is as near to the shape as asked for.
+    /// Whether no hexahedron is inverted, no surface folded, and the surface as near to the shape as asked for.
     pub fn is_good(&self) -> bool {
-        self.inverted == 0 && self.within_hausdorff
+        self.inverted == 0 && self.folded == 0 && self.within_hausdorff
     }
 
     /// How many cells bring the distance within the bound, if it shrinks in proportion to the length of edges: details do, smooth shapes
     /// are faster.
-    fn near_enough(&self) -> String {
+    /// Nothing where the distance has other causes or so many cells would be out of reach.
+    fn near_enough(&self) -> Option<String> {
         let finer = self.hausdorff_percent / (100.0 * self.max_hausdorff);
-        match self.hexes {
-            0 => format!("{} quadrilaterals", rounded(self.quads as f64 * finer * finer)),
-            n => format!("{} hexahedra", rounded(n as f64 * finer * finer * finer)),
-        }
+        let (cells, count) = match self.hexes {
+            0 => ("quadrilaterals", self.quads as f64 * finer * finer),
+            n => ("hexahedra", n as f64 * finer * finer * finer),
+        };
+        let helps = self.inverted == 0 && self.folded == 0 && count <= MOST_ADVISED;
+        helps.then(|| format!(": {} {cells} are likely to be near enough", rounded(count)))
     }
 
     /// What is not as good as asked for, in plain words.
@@ -173,11 +185,17 @@ impl RemeshReport {
         if self.inverted > 0 {
             faults.push(format!("{} hexahedra are inverted: those whose scaled_jacobian is 0 or less", self.inverted));
         }
+        if self.folded > 0 {
+            faults.push(format!(
+                "the map of the surface is folded, and quadrilaterals lie wrong there ({} are inverted): lower the simplicity",
+                self.inverted_quads
+            ));
+        }
         if !self.within_hausdorff {
             faults.push(format!(
-                "the Hausdorff distance is {:.3} % of the diagonal, more than asked for: {} are likely to be near enough",
+                "the Hausdorff distance is {:.3} % of the diagonal, more than asked for{}",
                 self.hausdorff_percent,
-                self.near_enough()
+                self.near_enough().unwrap_or_default()
             ));
         }
         faults

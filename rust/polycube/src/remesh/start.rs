@@ -26,8 +26,10 @@ pub(super) struct Start {
     pub(super) rung: Option<Rung>,
     /// Whether the levels were spaced by the shape.
     pub(super) spaced: bool,
-    /// Whether no coarse mesh was made because the map of the surface stayed folded.
-    folded: bool,
+    /// How many triangles of the map of the surface are turned over if it stayed folded; 0 otherwise.
+    pub(super) folded: usize,
+    /// Whether no coarse mesh was made because of that.
+    hopeless: bool,
 }
 
 impl Start {
@@ -47,9 +49,9 @@ impl Start {
         let shape = input.shape.unwrap_or(input.polycube);
         let (mut map, shape, folded) = improve_map(&mut simplified, shape, &context.stage("map", 0.2, 0.4))?;
         let mut rung = None;
-        let folded = folded && several;
+        let hopeless = folded > 0 && several;
         let aim = if several { Aim::Trial } else { Aim::Coarse };
-        if !options.surface_only && !folded {
+        if !options.surface_only && !hopeless {
             rung = climb(&map, &shape, options, aim, &context.stage("map", 0.4, 1.0))?;
         }
         let flexible = rung.as_ref().filter(|_| is_flexible(options));
@@ -59,12 +61,12 @@ impl Start {
             simplified = on_levels(&simplified, levels.clone());
             map = on_levels(&map, levels);
         }
-        Ok(Self { simplified, map, shape, rung, spaced: is_spaced, folded })
+        Ok(Self { simplified, map, shape, rung, spaced: is_spaced, folded, hopeless })
     }
 
     /// The worst scaled Jacobian of the coarse mesh, if there is one; as bad as can be where the map is folded.
     pub(super) fn worst(&self) -> Option<f64> {
-        self.rung.as_ref().map(|r| r.worst).or(self.folded.then_some(-1.0))
+        self.rung.as_ref().map(|r| r.worst).or(self.hopeless.then_some(-1.0))
     }
 }
 
@@ -82,11 +84,26 @@ fn sized(input: &Input, found: Simplified, options: &RemeshOptions, context: &Co
         None if found.report.valid => return Ok(found),
         None => found.report.scale,
     };
-    let fitted = found.rescaled(input, scale, &context.stage("scale", 0.3, 0.6))?;
+    let mut fitted = found.rescaled(input, scale, &context.stage("scale", 0.3, 0.6))?;
     if fitted.report.valid {
+        keep_notes(&mut fitted, &found, options);
         return Ok(fitted);
     }
     in_order(input, found, options, scale, &context.stage("scale", 0.6, 1.0))
+}
+
+/// Says of a polycube at the wanted size what was said of it before, and whether its corners move farther there than they may.
+fn keep_notes(fitted: &mut Simplified, found: &Simplified, options: &RemeshOptions) {
+    let report = &mut fitted.report;
+    let new = found.report.notes.iter().filter(|note| !report.notes.contains(note)).cloned();
+    report.notes = new.chain(report.notes.iter().cloned()).collect();
+    let Some(limit) = options.simplify.max_displacement else { return };
+    let moved = report.max_displacement;
+    if moved > limit && found.report.max_displacement <= limit {
+        report.notes.push(format!(
+            "at this size the corners move by {moved:.6}, more than {limit}: a finer lattice or a smaller limit moves them less"
+        ));
+    }
 }
 
 /// The levels of the input in their own order, where plain rounding broke the polycube.
@@ -111,11 +128,11 @@ fn in_order(
     Ok(result)
 }
 
-/// Untangles the map of the surface. What is returned has a better one, refined for meshing, and the shape to go with it; and whether
-/// the map is folded all the same.
-fn improve_map(simplified: &mut Simplified, shape: &Mesh, context: &Context) -> Result<(Simplified, Mesh, bool)> {
+/// Untangles the map of the surface. What is returned has a better one, refined for meshing, and the shape to go with it; and how many
+/// triangles are turned over if it is folded all the same.
+fn improve_map(simplified: &mut Simplified, shape: &Mesh, context: &Context) -> Result<(Simplified, Mesh, usize)> {
     let Simplified { input, polycube: Some(mesh), .. } = simplified else {
-        return Ok((simplified.clone(), shape.clone(), false));
+        return Ok((simplified.clone(), shape.clone(), 0));
     };
     let mut refined = Refined::new(input, &mesh.points, &shape.points)?;
     let folded = untangle::surface(&mut refined, context)?;

@@ -1,19 +1,17 @@
-//! Makes the map between shape and polycube one to one before it is used.
+//! Makes the map between the surfaces of shape and polycube one to one before it is used.
 
 use super::refine::Refined;
 use crate::context::Context;
 use crate::error::Result;
-use crate::mesh::{Cells, Mesh, Point};
 use crate::optimise::{Elements, Freedom, Scope, Settings, optimise};
 use crate::simplify::Corners;
-use crate::structure::Polycube;
 
-/// Untangling alone, and just enough of it.
-const TETRAHEDRA: Settings = Settings {
+/// Untangling alone.
+const UNTANGLE: Settings = Settings {
     theta: 0.1,
     scope: Scope::NearFirst,
-    untangle_rounds: 20,
-    untangle_iterations: 50,
+    untangle_rounds: 40,
+    untangle_iterations: 100,
     improve_rounds: 0,
     improve_iterations: 0,
     average: 0.0,
@@ -22,20 +20,7 @@ const TETRAHEDRA: Settings = Settings {
 };
 
 /// Smoothing of a valid map by two rounds of improvement.
-const SMOOTH: Settings = Settings { untangle_rounds: 0, improve_rounds: 2, improve_iterations: 50, ..SURFACE };
-
-/// Untangling of surfaces.
-const SURFACE: Settings = Settings { untangle_rounds: 40, untangle_iterations: 100, ..TETRAHEDRA };
-
-/// Turns the tetrahedra of a polycube the right way round, each to look like that of the shape; surface vertices stay on
-/// their facets and edges. Other cells are left as they are. Returns how many are still turned over.
-pub(super) fn volume(polycube: &Polycube, mesh: &mut Mesh, shape: &[Point], context: &Context) -> Result<usize> {
-    let Cells::Tetrahedra(cells) = &mesh.cells else { return Ok(0) };
-    let elements = Elements::tetrahedra_like(cells, shape)?;
-    let freedom = polycube.vertex_levels.iter().map(|levels| Freedom::Axes(levels.map(|l| l.is_some())));
-    let freedom: Vec<Freedom> = freedom.collect();
-    Ok(optimise(&mut mesh.points, &elements, &freedom, &[], &TETRAHEDRA, context)?.inverted_after)
-}
+const SMOOTH: Settings = Settings { untangle_rounds: 0, improve_rounds: 2, improve_iterations: 50, ..UNTANGLE };
 
 /// How often triangles are split where they cannot be turned the right way round.
 const SPLITS: usize = 2;
@@ -44,8 +29,8 @@ const FOLDED: f64 = 0.001;
 
 /// Moves the surface vertices of a polycube in their facets and along their edges so that no triangle is turned over
 /// and each looks like that of the shape, as far as that goes; splits triangles where it does not go otherwise, as long as that
-/// leaves fewer of them turned over. Whether a facet stays folded.
-pub(super) fn surface(refined: &mut Refined, context: &Context) -> Result<bool> {
+/// leaves fewer of them turned over. Where a facet stays folded, how many triangles are turned over; else 0.
+pub(super) fn surface(refined: &mut Refined, context: &Context) -> Result<usize> {
     spread_chains(refined);
     let mut least = usize::MAX;
     for round in 0..=SPLITS {
@@ -56,7 +41,7 @@ pub(super) fn surface(refined: &mut Refined, context: &Context) -> Result<bool> 
             break;
         }
         if bad.len() as f64 > FOLDED * refined.polycube.surface.faces().len() as f64 {
-            return Ok(true);
+            return Ok(bad.len());
         }
         if bad.len() >= least {
             break;
@@ -66,7 +51,7 @@ pub(super) fn surface(refined: &mut Refined, context: &Context) -> Result<bool> 
             refined.split_facets_of(&bad)?;
         }
     }
-    Ok(false)
+    Ok(0)
 }
 
 /// Segments of an edge no shorter than this part of their mean are well enough spread.
@@ -104,7 +89,7 @@ fn relax(refined: &mut Refined, sliding: bool, context: &Context) -> Result<Vec<
         }
     }
     let elements = Elements::tetrahedra_like(&corners.tetrahedra, &corners.rest)?;
-    let settings = if sliding { &SMOOTH } else { &SURFACE };
+    let settings = if sliding { &SMOOTH } else { &UNTANGLE };
     optimise(&mut corners.points, &elements, &corners.freedom, &[], settings, context)?;
     let bad = corners.turned_over();
     corners.points.truncate(points.len());

@@ -27,7 +27,7 @@ const SETTINGS: Settings = Settings {
 ///
 /// # Errors
 /// [`ErrorKind::Cancelled`](crate::ErrorKind::Cancelled).
-pub(super) fn untangle(polycube: &Polycube, mesh: &mut Mesh, shape: &Mesh, context: &Context) -> Result<()> {
+pub(crate) fn untangle(polycube: &Polycube, mesh: &mut Mesh, shape: &Mesh, context: &Context) -> Result<()> {
     let mut corners = Corners::new(polycube, mesh, &shape.points);
     if corners.turned_over().is_empty() {
         return Ok(());
