@@ -6,6 +6,7 @@ the patches, traced here from the definition, are as many as reported.
 """
 
 import json
+import os
 import pathlib
 import subprocess
 import sys
@@ -244,7 +245,8 @@ def main(data):
         if data.is_dir():
             volume_pair("bunny", f"{real}.shape.mesh", f"{real}.polycube.mesh", 3000, folder / "bunny")
         else:
-            print("  skipped: no data")
+            check(os.environ.get("POLYCUBE_REQUIRE_DATA") != "1", f"there is no {data}")
+            print(f"  skipped: the bunny, as there is no {data}")
     gmsh.finalize()
 
 
