@@ -1,6 +1,7 @@
 //! What the user wants to stay: facets that must not move, that must or must not align, and planes of symmetry.
 
 mod mirror;
+mod reflect;
 mod resolved;
 mod start;
 
@@ -18,7 +19,8 @@ use crate::structure::Polycube;
 #[serde(default, deny_unknown_fields)]
 pub struct Guides {
     /// Facets that must not move: the plane of each lies where the input has it, times the scale, rounded to the lattice. All
-    /// other facets find their places around them.
+    /// other facets find their places around them. Two that mirror each other about a plane of [`Guides::symmetry`] are an error
+    /// ([`ErrorKind::Infeasible`](crate::ErrorKind::Infeasible)) where rounding leaves no such plane on the lattice.
     pub fixed: Vec<usize>,
     /// Groups of facets of one axis that must lie in one plane.
     pub together: Vec<Vec<usize>>,
