@@ -202,6 +202,31 @@ impl PySimplified {
         Listener { progress, cancel }.run(py, task)
     }
 
+    /// The same result at another scale, in lattice steps per unit of the input: the same blocks on a finer or coarser lattice.
+    /// Nothing is searched again; it takes the time of the morph. As in `simplify`, other threads run and `progress` and
+    /// `cancel` are heeded.
+    ///
+    /// Raises:
+    ///     InvalidOption: `scale` is not a positive number, or too large for the lattice.
+    ///     Infeasible: on this lattice there is no room between the facets that must not move.
+    ///     Cancelled: `cancel` was set.
+    #[pyo3(signature = (scale, *, progress=None, cancel=None))]
+    fn rescaled<'py>(
+        &self,
+        py: Python<'py>,
+        scale: f64,
+        progress: Option<Bound<'py, PyAny>>,
+        cancel: Option<Bound<'py, PyAny>>,
+    ) -> PyResult<Self> {
+        let parts = Arc::clone(&self.0);
+        let task = move |context: &Context| {
+            let Parts { source, result, .. } = &*parts;
+            let scaled = result.rescaled(&source.input(), scale, context).map_err(|e| source.failure(e))?;
+            Ok(Self::new(scaled, source.clone()))
+        };
+        Listener { progress, cancel }.run(py, task)
+    }
+
     fn __repr__(&self) -> String {
         let count = |c: polycube::layout::Counts| c.blocks_padded;
         let report = &self.0.result.report;

@@ -176,6 +176,9 @@ class Simplified:
     def at(
         self, simplicity: float, *, progress: _Progress | None = None, cancel: _Flag | None = None
     ) -> Simplified: ...
+    def rescaled(
+        self, scale: float, *, progress: _Progress | None = None, cancel: _Flag | None = None
+    ) -> Simplified: ...
 
 @final
 class Quads:
