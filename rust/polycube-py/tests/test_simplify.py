@@ -119,7 +119,7 @@ def test_another_scale_has_the_same_blocks():
     assert np.array_equal(finer.rescaled(simple.scale).polycube.points, simple.polycube.points)
     with pytest.raises(polycube.InvalidOption):
         simple.rescaled(0.0)
-    fixed = polycube.simplify(mesh, guides={"fixed": list(range(len(simple.structure.facets)))})
+    fixed = polycube.simplify(mesh, guides={"fixed": list(range(len(simple.structure.facet_level)))})
     with pytest.raises(polycube.Infeasible):
         fixed.rescaled(0.05)
 
