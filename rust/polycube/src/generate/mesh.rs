@@ -2,13 +2,11 @@
 
 use super::voxels::Voxels;
 use crate::error::{Error, ErrorKind, Result};
+use crate::mesh::hexahedron::OCTANTS;
 use crate::mesh::{CellKind, Cells, Mesh, Point};
 
 /// The octants at the corners of each face (−X +X −Y +Y −Z +Z), counter-clockwise from outside.
 const FACES: [[usize; 4]; 6] = [[0, 4, 6, 2], [1, 3, 7, 5], [0, 1, 5, 4], [2, 6, 7, 3], [0, 2, 3, 1], [4, 5, 7, 6]];
-
-/// The octants at the corners of a hexahedron in VTK's order.
-pub(super) const HEXAHEDRON: [usize; 8] = [0, 1, 3, 2, 4, 5, 7, 6];
 
 /// Five tetrahedra of a cell whose octant 0 is even; its diagonals join even octants (0, 3, 5, 6).
 /// An odd cell is its mirror image along X.
@@ -61,7 +59,7 @@ impl<'a> Lattice<'a> {
 
     pub(super) fn hexahedra(&self) -> Vec<[u32; 8]> {
         let cells = self.voxels.cells().map(|cell| self.octants(cell));
-        cells.map(|o| HEXAHEDRON.map(|i| o[i])).collect()
+        cells.map(|o| OCTANTS.map(|i| o[i])).collect()
     }
 
     pub(super) fn tetrahedra(&self) -> Vec<[u32; 4]> {

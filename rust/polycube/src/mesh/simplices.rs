@@ -4,16 +4,12 @@
 //! that share it cut it alike (Dompierre, Labbé, Vallet, Camarero: "How to subdivide pyramids,
 //! prisms and hexahedra into tetrahedra", 1999).
 
-use super::Cells;
+use super::{Cells, hexahedron};
 use crate::error::{Error, ErrorKind, Place, Result};
 use std::borrow::Cow;
 
 /// Local faces of a tetrahedron in VTK's order, counter-clockwise seen from outside.
 const TETRAHEDRON_FACES: [[usize; 3]; 4] = [[0, 1, 3], [1, 2, 3], [2, 0, 3], [0, 2, 1]];
-
-/// Local faces of a hexahedron in VTK's order, counter-clockwise seen from outside.
-const HEXAHEDRON_FACES: [[usize; 4]; 6] =
-    [[0, 4, 7, 3], [1, 2, 6, 5], [0, 1, 5, 4], [3, 7, 6, 2], [0, 3, 2, 1], [4, 5, 6, 7]];
 
 /// The simplices of a mesh: borrowed where its cells are simplices already, made where they are not.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -71,7 +67,7 @@ impl Cells {
             Self::Triangles(c) => c.iter().copied().map(Face::Triangle).collect(),
             Self::Quads(c) => c.iter().copied().map(Face::Quad).collect(),
             Self::Tetrahedra(c) => outer(c, &TETRAHEDRON_FACES, Face::Triangle)?,
-            Self::Hexahedra(c) => outer(c, &HEXAHEDRON_FACES, Face::Quad)?,
+            Self::Hexahedra(c) => outer(c, &hexahedron::FACES, Face::Quad)?,
         })
     }
 }
@@ -87,7 +83,7 @@ pub(crate) fn split_quad(quad: [u32; 4]) -> [[u32; 3]; 2] {
 /// diagonals of its own three faces, as the rule of [`split_quad`] wants.
 fn split_hex(hex: &[u32; 8]) -> impl Iterator<Item = [u32; 4]> {
     let m = smallest(hex);
-    HEXAHEDRON_FACES
+    hexahedron::FACES
         .iter()
         .filter(move |face| !face.contains(&m))
         .flat_map(|face| split_quad(face.map(|k| hex[k])))

@@ -5,6 +5,7 @@ use super::grid::Rectangle;
 use super::keys::rank;
 use super::padding::Padding;
 use crate::error::{Error, ErrorKind, Result};
+use crate::mesh::hexahedron::OCTANTS;
 use crate::mesh::{CellField, Cells, Mesh, Point};
 use crate::structure::Structure;
 
@@ -90,7 +91,7 @@ impl Numbers<'_, '_> {
         let mut blocks = Vec::new();
         for &[low, high] in &grid.blocks {
             let mut hex = [0; 8];
-            for (corner, octant) in hex.iter_mut().zip([0, 1, 3, 2, 4, 5, 7, 6]) {
+            for (corner, octant) in hex.iter_mut().zip(OCTANTS) {
                 let at = std::array::from_fn(|a| if octant >> a & 1 == 1 { high[a] } else { low[a] });
                 *corner = self.vertex(at, 0)?;
             }
