@@ -11,7 +11,6 @@ pub use io::{
     CellField, FieldValues, Format, parse_labels, read, read_bytes, read_labels, read_pair, write, write_atomically,
     write_bytes, write_labels,
 };
-pub(crate) use simplices::split_quad;
 pub use simplices::{Face, Simplices};
 
 use crate::error::{Error, ErrorKind};

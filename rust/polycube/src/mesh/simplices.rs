@@ -37,6 +37,18 @@ impl Face {
             Self::Quad(v) => v,
         }
     }
+
+    /// Its one or two triangles, cut as in [`Cells::simplices`].
+    pub(crate) fn triangles(&self) -> impl Iterator<Item = [u32; 3]> + use<> {
+        let (first, second) = match *self {
+            Self::Triangle(t) => (t, None),
+            Self::Quad(q) => {
+                let [first, second] = split_quad(q);
+                (first, Some(second))
+            }
+        };
+        std::iter::once(first).chain(second)
+    }
 }
 
 impl Cells {
@@ -73,7 +85,7 @@ impl Cells {
 }
 
 /// The two triangles of a quadrilateral, cut through its smallest vertex index.
-pub(crate) fn split_quad(quad: [u32; 4]) -> [[u32; 3]; 2] {
+fn split_quad(quad: [u32; 4]) -> [[u32; 3]; 2] {
     let m = smallest(&quad);
     let at = |k: usize| quad[(m + k) % 4];
     [[at(0), at(1), at(2)], [at(0), at(2), at(3)]]
@@ -209,10 +221,7 @@ mod tests {
             let cells = Cells::Tetrahedra(split);
             let mut split: Vec<_> = cells.boundary().unwrap().iter()
                 .map(|f| key([f.vertices()[0], f.vertices()[1], f.vertices()[2]])).collect();
-            let mut quads: Vec<_> = mesh.cells.boundary().unwrap().iter().flat_map(|f| match f {
-                Face::Quad(q) => split_quad(*q).map(key),
-                Face::Triangle(_) => panic!("not a quadrilateral"),
-            }).collect();
+            let mut quads: Vec<_> = mesh.cells.boundary().unwrap().iter().flat_map(Face::triangles).map(key).collect();
             split.sort_unstable();
             quads.sort_unstable();
             prop_assert_eq!(split, quads);
