@@ -3,6 +3,7 @@
 //! Reading is safe on any input: a malformed file gives an [`Error`] that says where it is wrong,
 //! and never a panic, an endless loop, or memory out of proportion to the size of the file.
 
+mod compact;
 pub(crate) mod hexahedron;
 mod io;
 mod simplices;

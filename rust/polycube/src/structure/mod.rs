@@ -108,6 +108,12 @@ impl Structure {
         edge.corners.map(|c| self.corners[c as usize].levels[edge.axis])
     }
 
+    /// Whether the facet on the left of an edge goes away from the side that the facet on its right looks at.
+    pub fn is_convex(&self, edge: &Edge) -> bool {
+        let [left, right] = edge.facets.map(|f| self.facets[f as usize].label);
+        left.left(edge.axis) != right.sign()
+    }
+
     /// The levels of the box that an edge fills: a range along its axis, one level along the other two.
     pub fn edge_box(&self, edge: &Edge) -> LevelBox {
         let [low, high] = edge.corners.map(|c| self.corners[c as usize].levels);
