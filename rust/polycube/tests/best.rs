@@ -8,7 +8,7 @@ use polycube::align::{Alignment, Effort, Options, Strategy, align};
 use polycube::generate::{Cuboid, Example, Voxels, example, random_polycube, random_with_corners};
 use polycube::layout::Objective;
 use polycube::mesh::CellKind;
-use polycube::structure::{Polycube, Tolerance};
+use polycube::structure::{Polycube, Tolerance, placement_of};
 
 const OBJECTIVES: [Objective; 3] = [Objective::BlocksPadded, Objective::Blocks, Objective::SurfacePatches];
 
@@ -56,7 +56,7 @@ fn the_front_trades_blocks_for_displacement() {
     let nearest = run(&polycube, &Options { simplicity: 0.0, ..Options::default() });
     assert!(counted(&nearest, Objective::BlocksPadded) > counted(&coarsest, Objective::BlocksPadded));
     let moved = |a: &Alignment| {
-        let levels: Vec<f64> = a.levels.iter().map(|&x| x as f64).collect();
+        let levels = placement_of(&a.levels);
         polycube.structure.max_displacement(&polycube.placement, &levels)
     };
     let limit = f64::midpoint(moved(&nearest), moved(&coarsest));

@@ -6,7 +6,7 @@ use polycube::align::{self, Round};
 use polycube::layout::Counts;
 use polycube::mesh::{Cells, Face, Mesh, Point, Simplices};
 use polycube::simplify::{Input, Options, Simplified, fit, simplify};
-use polycube::structure::{Arrangement, Polycube};
+use polycube::structure::{Arrangement, Polycube, placement_of};
 use polycube::{Context, Error, ErrorKind, Result};
 
 /// A step of the simplification.
@@ -100,9 +100,9 @@ impl Scene {
             let (structure, input) = (&polycube.structure, &polycube.placement);
             let levels =
                 align::rescale(structure, input, &round.levels, &settings, &context.stage("layouts", 0.0, 0.1))?;
-            steps.push((Some(round.clone()), round.counts, levels.iter().map(|&x| x as f64).collect()));
+            steps.push((Some(round.clone()), round.counts, placement_of(&levels)));
         }
-        steps.push((None, after, result.levels.iter().map(|&x| x as f64).collect()));
+        steps.push((None, after, placement_of(&result.levels)));
         let (mut last, total) = (None, steps.len());
         for (done, (round, counts, placement)) in steps.into_iter().enumerate() {
             context.tick(0.1 + 0.9 * done as f64 / total as f64)?;

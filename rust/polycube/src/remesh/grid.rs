@@ -5,7 +5,7 @@ use super::site::Site;
 use crate::error::{Error, ErrorKind, Result};
 use crate::layout::{Block, Complex, Lattice, Patch, Separatrices};
 use crate::mesh::hexahedron::OCTANTS;
-use crate::structure::{Arrangement, Label, Structure};
+use crate::structure::{Arrangement, Label, Structure, placement_of};
 
 /// A unit square of the surface.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -52,7 +52,7 @@ impl Grid {
     /// # Errors
     /// [`ErrorKind::Option`] when the lattice is finer than 32-bit indices can count.
     pub(super) fn new(structure: &Structure, levels: &[i64]) -> Result<Self> {
-        let placement: Vec<f64> = levels.iter().map(|&x| x as f64).collect();
+        let placement = placement_of(levels);
         let arrangement = Arrangement::new(structure, &placement);
         let lattice = Lattice::new(&arrangement);
         let complex = Complex::new(&lattice, &arrangement);

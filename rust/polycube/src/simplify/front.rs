@@ -5,7 +5,7 @@ use crate::align::{self, Alignment, Strategy, TradeOff};
 use crate::context::Context;
 use crate::error::{Error, ErrorKind, Result};
 use crate::layout::{Counts, count};
-use crate::structure::{Arrangement, Placement};
+use crate::structure::{Arrangement, placement_of};
 use std::time::Instant;
 
 /// A point of the front on the lattice, before any mesh is moved.
@@ -113,7 +113,7 @@ impl Simplified {
         let (structure, placement) = (&polycube.structure, &polycube.placement);
         let settings = self.settings();
         let levels = align::place(structure, placement, report.before, &report.front[index], &settings, context)?;
-        let at: Placement = levels.iter().map(|&x| x as f64).collect();
+        let at = placement_of(&levels);
         let counts = count(&Arrangement::new(structure, &at));
         let max_displacement = max_displacement(polycube, &levels, report.scale);
         Ok(Located { index, levels, counts, max_displacement })

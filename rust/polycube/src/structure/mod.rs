@@ -23,6 +23,11 @@ pub use violation::Violation;
 /// The coordinate of every level, in the order of [`Structure::levels`].
 pub type Placement = Vec<f64>;
 
+/// The placement that has the levels at integers, as alignment leaves them. Exact up to 2⁵³.
+pub fn placement_of(levels: &[i64]) -> Placement {
+    levels.iter().map(|&x| x as f64).collect()
+}
+
 /// The coordinate that a connected set of facets shares: one unknown of the alignment.
 ///
 /// Two facets of one axis that touch at a corner have one level, so collinearity of edges
