@@ -35,6 +35,10 @@ pub mod simplify;
 pub mod structure;
 pub mod validate;
 
+#[cfg(test)]
+#[path = "../tests/common/data.rs"]
+mod data;
+
 pub use context::Context;
 pub use error::{Error, ErrorKind, Place, Result};
 pub use simplify::{Input, Options, Report, Simplified};

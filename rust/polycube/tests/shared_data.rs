@@ -2,7 +2,7 @@
 
 mod common;
 
-use common::data::{models, reference};
+use common::models::{models, reference};
 use common::{dense, labels, paper, read, simplify};
 use polycube::generate::{perturb, scale};
 use polycube::layout::{Counts, count};
