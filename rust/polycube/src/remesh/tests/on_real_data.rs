@@ -5,6 +5,7 @@ use crate::align::Strategy;
 use crate::context::Context;
 use crate::data::folder;
 use crate::mesh::{Mesh, read_pair};
+use crate::remesh::report::diagonal;
 use crate::remesh::{Remesher, hausdorff};
 use crate::simplify::Options;
 use std::time::Instant;
@@ -75,7 +76,7 @@ fn numbers_of_real_pairs() {
         let hexes = remesher.hexes(1, &context).unwrap();
         let hex_time = lap();
         let distance = hausdorff(&quads.mesh, &case.shape, &context).unwrap();
-        let diagonal = diagonal(&case);
+        let diagonal = diagonal(&case.shape);
         let (inverted, worst, mean) = quality(&hexes);
         let blocks = super::distinct(&crate::remesh::base_complex(super::cells(&hexes.mesh)).unwrap());
         assert_eq!(blocks, case.simplified.report.after.unwrap().blocks_padded, "{}", case.name);
@@ -92,10 +93,4 @@ fn numbers_of_real_pairs() {
             case.simplified.report.after.unwrap(),
         );
     }
-}
-
-fn diagonal(case: &Case) -> f64 {
-    let fold = |a: usize, f: fn(f64, f64) -> f64, s: f64| case.shape.points.iter().map(|p| p[a]).fold(s, f);
-    let side = |a: usize| fold(a, f64::max, f64::NEG_INFINITY) - fold(a, f64::min, f64::INFINITY);
-    (0..3).map(|a| side(a) * side(a)).sum::<f64>().sqrt()
 }
