@@ -230,6 +230,15 @@ class Simplified {
 ///
 /// The result has the topology of the input, never more blocks, and is the same bytes for any number of threads.
 ///
+/// @code
+/// polycube::Options options;
+/// options.max_displacement = 3.0;  // units of the polycube
+/// options.guides.fixed_faces = {0};
+/// const polycube::Simplified simple = polycube::simplify({cube, shape}, options);
+/// polycube::write_mesh("simple.obj", simple.polycube());
+/// const polycube::Simplified near = simple.at({cube, shape}, 0.0);  // for a slider
+/// @endcode
+///
 /// @throws Error mesh or polycube (the first violation, see `check()` for all), mismatch, option, infeasible,
 /// cancelled.
 Simplified simplify(const Input& input, const Options& options = {}, const Context& context = {});
