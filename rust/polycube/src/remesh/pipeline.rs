@@ -75,6 +75,23 @@ pub struct Remeshed {
 ///
 /// The result is the same for any number of threads.
 ///
+/// ```
+/// use polycube::generate::{Example, example};
+/// use polycube::mesh::CellKind;
+/// use polycube::remesh::{RemeshOptions, Size, remesh};
+/// use polycube::{Context, Input};
+///
+/// let (cube, shape) = example(Example::SteppedL, 1, CellKind::Quads)?;
+/// let input = Input { polycube: &cube, shape: Some(&shape), labels: None };
+/// let options = RemeshOptions { size: Some(Size::Hexes(400)), ..RemeshOptions::default() };
+/// let meshes = remesh(&input, &options, &Context::default())?;
+///
+/// let hexes = meshes.hexes.expect("`surface_only` alone leaves them out");
+/// assert_eq!(hexes.mesh.cells.len(), meshes.scaled_jacobian.len());
+/// assert_eq!(meshes.report.inverted, 0);
+/// # Ok::<(), polycube::Error>(())
+/// ```
+///
 /// # Errors
 /// Those of [`simplify()`], [`scale_for`](super::scale_for()), [`Remesher`] and [`optimise`](crate::optimise::optimise()); [`ErrorKind::Option`] for a bound on the
 /// Hausdorff distance that is not positive; [`ErrorKind::Cancelled`].
