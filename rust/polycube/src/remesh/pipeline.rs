@@ -29,7 +29,8 @@ pub struct RemeshOptions {
     pub padding: usize,
     /// Leave the hexahedra out.
     pub surface_only: bool,
-    /// The largest Hausdorff distance to accept, as a part of the bounding box's diagonal; 0.005 by default.
+    /// The largest Hausdorff distance to accept, as a **fraction** of the bounding box's diagonal; 0.005 by default, half a
+    /// percent. (The command and Python take percent.)
     pub max_hausdorff: f64,
     /// How hard the hexahedra are optimised; `near_first` is not looked at, both ways are tried.
     pub optimise: Settings,
