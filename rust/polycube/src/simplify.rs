@@ -40,7 +40,7 @@ pub struct Options {
     pub lambda_min: f64,
     /// Who solves the integer problems.
     pub solver: SolverKind,
-    /// Which number shall be small; by default padded blocks for a volume and patches for a surface.
+    /// Which number the strategy `best` makes small; by default padded blocks for a volume and patches for a surface.
     pub objective: Option<Objective>,
     /// How long the strategy `best` searches.
     pub effort: Effort,

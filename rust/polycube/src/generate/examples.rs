@@ -2,11 +2,11 @@
 
 use super::deform::Deformation;
 use super::mesh::Lattice;
-use super::rng::SplitMix64;
 use super::soften::Body;
 use super::voxels::{Cuboid, Voxels};
 use crate::error::{Error, ErrorKind, Result};
 use crate::mesh::{CellKind, Mesh, Point};
+use crate::rng::SplitMix64;
 use std::fmt;
 use std::str::FromStr;
 

@@ -27,6 +27,22 @@ impl Simplified {
     ///
     /// It is what [`simplify`](super::simplify) would give with this simplicity and no limits on displacement and distortion.
     ///
+    /// ```
+    /// use polycube::generate::{Example, example};
+    /// use polycube::mesh::CellKind;
+    /// use polycube::simplify::simplify;
+    /// use polycube::{Context, Input, Options};
+    ///
+    /// let (cube, shape) = example(Example::CubeSpikes, 1, CellKind::Quads)?;
+    /// let input = Input { polycube: &cube, shape: Some(&shape), labels: None };
+    /// let coarse = simplify(&input, &Options::default(), &Context::default())?;
+    /// let near = coarse.at(&input, 0.0, &Context::default())?;
+    ///
+    /// assert_eq!((coarse.report.chosen, near.report.chosen), (Some(0), Some(near.report.front.len() - 1)));
+    /// assert!(near.report.after.unwrap().surface_patches > coarse.report.after.unwrap().surface_patches);
+    /// # Ok::<(), polycube::Error>(())
+    /// ```
+    ///
     /// # Errors
     /// [`ErrorKind::Option`] for a simplicity out of range, or if there is no front (only [`Strategy::Best`] finds one);
     /// [`ErrorKind::Mismatch`] if `input` has other cells; those of [`align::place`]; [`ErrorKind::Cancelled`].

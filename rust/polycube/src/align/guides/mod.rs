@@ -15,6 +15,26 @@ use crate::structure::Polycube;
 /// `structure.json` number them. By default nothing.
 ///
 /// Every strategy respects all of it, or says with an error why it cannot.
+///
+/// ```
+/// use polycube::generate::{Example, example};
+/// use polycube::align::{Guides, Symmetry};
+/// use polycube::mesh::CellKind;
+/// use polycube::simplify::simplify;
+/// use polycube::{Context, Input, Options};
+///
+/// // Seed 0: every part of the example is where symmetry has it.
+/// let (cube, shape) = example(Example::CubeSpikes, 0, CellKind::Quads)?;
+/// let input = Input { polycube: &cube, shape: Some(&shape), labels: None };
+/// let mut guides = Guides { symmetry: vec![Symmetry { axis: 0, at: 0.0 }], ..Guides::default() };
+/// let plain = simplify(&input, &Options::default(), &Context::default())?;
+/// // The facet that holds the first boundary face must not move: what a host has as a selection.
+/// guides.fix_faces(&plain.input, &[0]);
+///
+/// let guided = simplify(&input, &Options { guides, ..Options::default() }, &Context::default())?;
+/// assert!(guided.report.valid);
+/// # Ok::<(), polycube::Error>(())
+/// ```
 #[derive(Clone, Debug, Default, PartialEq, serde::Serialize, serde::Deserialize)]
 #[serde(default, deny_unknown_fields)]
 pub struct Guides {
