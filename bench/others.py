@@ -3,6 +3,7 @@
 The library's tests write both, as they occur, to a folder (`for_bench` in `align/paper` and in `map`).
 """
 
+import importlib.util
 import json
 import subprocess
 
@@ -26,6 +27,8 @@ def alignments(report, release, highs, folder):
         ours = 1e3 * sum(e["seconds"] for e in exact)
         for name, answers in others(release, highs, files):
             compare(report, (stem, len(files), variables), ours, exact, name, answers)
+    if importlib.util.find_spec("pyscipopt") is None:
+        report.line("\nSCIP is left out: it is not installed.")
 
 
 def compare(report, head, ours, exact, name, answers):
@@ -47,7 +50,7 @@ def others(release, highs, files):
         answers = [scip(json.loads(file.read_text()), PATIENCE) for file in files]
         yield "SCIP, MIQP", [(cost, seconds, status == "optimal") for cost, seconds, status in answers]
     except ImportError:
-        pass
+        pass  # `alignments` says so.
     for name, folder in (("HiGHS through good_lp, chords", highs), ("microlp through good_lp, chords", release)):
         if (folder / "examples" / "solve_problem").is_file():
             found = [line["linear"] for line in solved(folder, files)]
@@ -65,7 +68,7 @@ def factorisations(report, systems, folder):
         import numpy
         from scipy.io import mmread
     except ImportError:
-        return report.line("\nSciPy is not installed.")
+        return report.line("\nSuperLU, CHOLMOD and UMFPACK are left out: SciPy is not installed.")
     report.table("Morph against factorisations of the same matrix", "system", "unknowns", "right sides", "ours, ms",
                  "other", "theirs, ms", "theirs / ours", "answers differ by")
     for system in systems:

@@ -63,7 +63,7 @@ def bridge(report, release, folder):
     """What calling from C++ adds, against a twentieth of what the core takes."""
     program = release.parent / "cpp" / "bench" / "bench" / "bridge"
     if not program.is_file():
-        return report.row("bridge to C++: not built")
+        return report.row("what the bridge to C++ adds: not built", "", "", "", "")
     files = [folder / f"{BUNNY}.{kind}.obj" for kind in ("polycube", "shape")]
     line = json.loads(subprocess.check_output([program, *files]))
     report.target("what the bridge to C++ adds, bunny", "18,496 triangles", 1e3 * line["added"], 1e3 * line["core"] / 20.0)

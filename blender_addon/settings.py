@@ -261,7 +261,7 @@ class Inputs:
         name="From",
         description="Where shape and polycube are",
         items=(
-            ('OBJECTS', "Two Objects", "The polycube is an object, the shape another one with the same vertices"),
+            ('OBJECTS', "Objects", "Two objects with the same vertices and faces, one the shape and one its polycube"),
             ('KEY', "Shape Key", "One object: its basis is the shape, a shape key is the polycube"),
         ),
         default='OBJECTS',

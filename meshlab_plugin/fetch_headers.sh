@@ -4,7 +4,8 @@
 #
 #   fetch_headers.sh VERSION DIR      VERSION is 2020.09, 2022.02 or 2025.07; DIR gets src/ and vcglib/
 #
-# Exit code 3: Debian no longer has that version (only its releases stay; 2025.07 is from its testing suite).
+# DEBIAN_MIRROR=URL takes it from there. Exit code 3: Debian no longer has that version (only its releases stay; 2025.07 is
+# from its testing suite). 4: it could not be asked.
 set -euo pipefail
 
 version=$1 out=$2
@@ -22,27 +23,36 @@ work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT
 mkdir -p "$work"/{lists/partial,cache/archives/partial,source}
 touch "$work/status"
+mirror=${DEBIAN_MIRROR:-http://deb.debian.org/debian}
 key=/usr/share/keyrings/debian-archive-keyring.gpg
-echo "deb-src [signed-by=$key] ${DEBIAN_MIRROR:-http://deb.debian.org/debian} $suite main" >"$work/sources.list"
+echo "deb-src [signed-by=$key] $mirror $suite main" >"$work/sources.list"
 options=(
     -o Dir::State::lists="$work/lists" -o Dir::State::status="$work/status" -o Dir::Cache="$work/cache"
     -o Dir::Etc::SourceList="$work/sources.list" -o Dir::Etc::SourceParts=- -o APT::Sandbox::User=
     -o APT::Update::Post-Invoke-Success::= -o Acquire::Check-Valid-Until=false
+    -o APT::Update::Error-Mode=any -o Acquire::Retries=3
 )
-# Only the tar ball: what else belongs to a source package goes away when the next one comes.
-get() {
-    cd "$work/source"
-    apt-get -qq "${options[@]}" update &&
-        apt-get -qq "${options[@]}" source --only-source --tar-only --download-only meshlab
-}
-if ! (get) || ! ls "$work"/source/meshlab_*.orig.tar.* >/dev/null 2>&1; then
-    echo "fetch_headers.sh: Debian $suite does not have the source of MeshLab" >&2
+
+gone() {
+    echo "fetch_headers.sh: $1" >&2
     exit 3
-fi
+}
+# Runs apt. A file that is not there ends in `gone`, all else in an error that says what to do.
+apt() {
+    (cd "$work/source" && LC_ALL=C apt-get -qq "${options[@]}" "$@") 2>"$work/errors" && return
+    cat "$work/errors" >&2
+    ! grep -qE '404 +Not Found|not have a Release file|Unable to find a source package' "$work/errors" ||
+        gone "Debian $suite does not have the source of MeshLab"
+    echo "fetch_headers.sh: the source of MeshLab $version could not be fetched from $mirror. Check the network and try" \
+        "again; or name another mirror with DEBIAN_MIRROR=URL" >&2
+    exit 4
+}
+apt update
+# Only the tar ball: what else belongs to a source package goes away when the next one comes.
+apt source --only-source --tar-only --download-only meshlab
 tarball=("$work"/source/meshlab_*.orig.tar.*)
 if ! echo "$sum  ${tarball[0]}" | sha256sum --quiet --check >&2; then
-    echo "fetch_headers.sh: $(basename "${tarball[0]}") of Debian $suite is not the source of MeshLab $version" >&2
-    exit 3
+    gone "$(basename "${tarball[0]}") of Debian $suite is not the source of MeshLab $version"
 fi
 
 mkdir "$work/tree"

@@ -2,6 +2,7 @@
 #include <stdexcept>
 
 #include "layers.h"
+#include "options.h"
 #include "pair.h"
 
 namespace {
@@ -19,19 +20,11 @@ class CheckFilter final : public Filter {
     }
     host::Arity arity() const override { return host::FilterPlugin::SINGLE_MESH; }
     int changes() const override { return MeshModel::MM_FACEFLAGSELECT; }
-    void add_parameters(const MeshDocument& document, RichParameterList& parameters) const override;
+    void add_parameters(const MeshDocument&, RichParameterList& parameters) const override {
+        add_tolerance(parameters);
+    }
     host::Values apply(const Call& call) const override;
 };
-
-void CheckFilter::add_parameters(const MeshDocument& document, RichParameterList& parameters) const {
-    const double diagonal = document.mm() != nullptr ? document.mm()->cm.bbox.Diag() : 1.0;
-    const polycube::Tolerance tolerance;
-    parameters.addParam(RichFloat("angle_tolerance", Scalarm(tolerance.degrees), "Angle tolerance",
-                                  "The largest angle between a face and the nearest axis, in degrees, 0 to 45."));
-    parameters.addParam(host::Percentage("level_tolerance", Scalarm(tolerance.distance * diagonal), 0,
-                                         Scalarm(diagonal), "Level tolerance",
-                                         "The largest distance of a vertex from the plane of its side."));
-}
 
 /// Selects the faces of these cells, which are in order, and no others; gives back how many.
 int select_cells(const std::vector<std::uint32_t>& cells, const Plain& plain, CMeshO& mesh) {
@@ -63,9 +56,7 @@ host::Values CheckFilter::apply(const Call& call) const {
     polycube::filter::Pair pair;
     pair.polycube = plain.mesh;
     polycube::filter::Settings settings;
-    polycube::Tolerance& tolerance = settings.options.simplify.tolerance;
-    tolerance.degrees = call.parameters.getFloat("angle_tolerance");
-    tolerance.distance = call.parameters.getAbsPerc("level_tolerance") / layer->cm.bbox.Diag();
+    settings.options.simplify.tolerance = chosen_tolerance(call.parameters);
     const polycube::filter::Inspection found = polycube::filter::inspect(pair, settings, call.context);
     const std::vector<std::string> lines = shortened(found.log);
 

@@ -2,6 +2,7 @@
 #include <stdexcept>
 
 #include "layers.h"
+#include "options.h"
 #include "pair.h"
 
 namespace {
@@ -12,6 +13,7 @@ class ColourFilter : public Filter {
     int changes() const override { return MeshModel::MM_FACECOLOR | MeshModel::MM_FACEQUALITY; }
     void add_parameters(const MeshDocument& document, RichParameterList& parameters) const override {
         add_pair(document, parameters);
+        add_tolerance(parameters);
     }
     host::Values apply(const Call& call) const override;
 
@@ -23,7 +25,9 @@ class ColourFilter : public Filter {
 host::Values ColourFilter::apply(const Call& call) const {
     const PairLayers layers = chosen_pair(call);
     const PlainPair plain = read_pair(call, layers);
-    const polycube::filter::Inspection found = polycube::filter::inspect(plain.pair, {}, call.context);
+    polycube::filter::Settings settings;
+    settings.options.simplify.tolerance = chosen_tolerance(call.parameters);
+    const polycube::filter::Inspection found = polycube::filter::inspect(plain.pair, settings, call.context);
     if (!found.checked.structure)
         throw std::invalid_argument(found.checked.violations.front().message +
                                     ". Run Polycube: Check to see where and what to do.");

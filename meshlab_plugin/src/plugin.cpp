@@ -5,7 +5,7 @@
 namespace {
 
 const char* const kCitation =
-    "<br><br>See:<br><i>G. Cherchi, M. Livesu, R. Scateni</i><br><b>\"Polycube Simplification for Coarse Layouts of "
+    "<br><br><i>G. Cherchi, M. Livesu, R. Scateni</i><br><b>\"Polycube Simplification for Coarse Layouts of "
     "Surfaces and Volumes\"</b><br>Computer Graphics Forum 35(5), 2016";
 
 /// Progress of the core as MeshLab's percent.

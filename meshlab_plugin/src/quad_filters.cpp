@@ -2,6 +2,7 @@
 #include <polycube/quality.hpp>
 
 #include "layers.h"
+#include "options.h"
 #include "pair.h"
 
 namespace {
@@ -28,6 +29,15 @@ void add_quad_layer(const Call& call, const PairLayers& layers, const polycube::
     call.document.setVisible(target.id(), false);
 }
 
+/// The surface alone, as the parameters that both filters have say.
+polycube::filter::Settings settings_of(const RichParameterList& parameters) {
+    polycube::filter::Settings settings;
+    settings.options.surface_only = true;
+    set_choice(parameters, settings.options.simplify);
+    settings.options.simplify.tolerance = chosen_tolerance(parameters);
+    return settings;
+}
+
 host::Values values_of(const polycube::Remeshed& result, const polycube::filter::Pair& pair) {
     host::Values values;
     add_counts(result.simplified.report(), values);
@@ -51,8 +61,10 @@ class LayoutFilter final : public Filter {
     int changes() const override { return MeshModel::MM_GEOMETRY_AND_TOPOLOGY_CHANGE; }
     void add_parameters(const MeshDocument& document, RichParameterList& parameters) const override {
         add_pair(document, parameters);
+        add_choice(parameters);
         add_lock(document, parameters);
         add_scalar_choice(parameters);
+        add_tolerance(parameters);
     }
     host::Values apply(const Call& call) const override;
 };
@@ -60,9 +72,8 @@ class LayoutFilter final : public Filter {
 host::Values LayoutFilter::apply(const Call& call) const {
     const PairLayers layers = chosen_pair(call);
     const polycube::filter::Pair pair = read_pair(call, layers).pair;
-    polycube::filter::Settings settings;
-    settings.options.surface_only = true;
-    const polycube::filter::RemeshedPair result = polycube::filter::remesh(pair, settings, call.context);
+    const polycube::filter::RemeshedPair result =
+        polycube::filter::remesh(pair, settings_of(call.parameters), call.context);
     const polycube::Mesh& patches = result.result.layout.patches;
     std::vector<std::uint32_t> patch_id(patches.cell_count());
     std::iota(patch_id.begin(), patch_id.end(), 0);
@@ -98,15 +109,16 @@ void QuadFilter::add_parameters(const MeshDocument& document, RichParameterList&
     parameters.addParam(host::Percentage("edge_length", length, 0, diagonal, "Edge length",
                                          "The mean length of the quadrilaterals' edges; by default that of the "
                                          "current layer."));
+    add_choice(parameters);
     add_lock(document, parameters);
     add_scalar_choice(parameters);
+    add_tolerance(parameters);
 }
 
 host::Values QuadFilter::apply(const Call& call) const {
     const PairLayers layers = chosen_pair(call);
     const polycube::filter::Pair pair = read_pair(call, layers).pair;
-    polycube::filter::Settings settings;
-    settings.options.surface_only = true;
+    polycube::filter::Settings settings = settings_of(call.parameters);
     settings.options.size =
         polycube::Size{polycube::Size::Kind::edge_length, call.parameters.getAbsPerc("edge_length")};
     const polycube::filter::RemeshedPair result = polycube::filter::remesh(pair, settings, call.context);

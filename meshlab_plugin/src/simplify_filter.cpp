@@ -1,7 +1,7 @@
 #include <array>
-#include <stdexcept>
 
 #include "layers.h"
+#include "options.h"
 #include "pair.h"
 
 namespace {
@@ -32,9 +32,7 @@ void SimplifyFilter::add_parameters(const MeshDocument& document, RichParameterL
     parameters.addParam(RichEnum("objective", 0, {"Surface patches", "Blocks", "Blocks with padding"}, "Make few",
                                  "What Best makes few: quadrilateral patches of the surface, blocks of the solid, or "
                                  "blocks once a layer of hexahedra lies around the solid."));
-    parameters.addParam(
-        RichDynamicFloat("simplicity", 1, 0, 1, "Simplicity",
-                         "From 1, the fewest that Best finds, to 0, the least change of the polycube."));
+    add_choice(parameters);
     const double diagonal = document.mm() != nullptr ? document.mm()->cm.bbox.Diag() : 1.0;
     parameters.addParam(host::Percentage("lattice_step", 0, 0, diagonal, "Lattice step (0 is automatic)",
                                          "The length of a lattice step. Automatic: 1 if all sides of the polycube lie "
@@ -43,6 +41,7 @@ void SimplifyFilter::add_parameters(const MeshDocument& document, RichParameterL
     parameters.addParam(RichBool("lattice_units", false, "Result in lattice units",
                                  "Give the result in steps of the lattice, with whole numbers for its sides, instead "
                                  "of in the units and at the place of the polycube."));
+    add_tolerance(parameters);
 }
 
 polycube::filter::Settings settings_of(const RichParameterList& parameters) {
@@ -55,9 +54,8 @@ polycube::filter::Settings settings_of(const RichParameterList& parameters) {
     polycube::Options& options = settings.options.simplify;
     options.strategy = strategies.at(std::size_t(parameters.getEnum("strategy")));
     options.objective = objectives.at(std::size_t(parameters.getEnum("objective")));
-    options.simplicity = parameters.getDynamicFloat("simplicity");
-    if (!(*options.simplicity >= 0.0 && *options.simplicity <= 1.0))
-        throw std::invalid_argument("The simplicity must be 0 to 1.");
+    set_choice(parameters, options);
+    options.tolerance = chosen_tolerance(parameters);
     if (const double step = parameters.getAbsPerc("lattice_step"); step != 0.0) options.scale = 1.0 / step;
     settings.in_input_units = !parameters.getBool("lattice_units");
     return settings;

@@ -38,15 +38,31 @@ def layers(polycube, shape):
     return [param("RichMesh", "polycube", polycube), param("RichMesh", "shape", shape)]
 
 
-def simplify(polycube=0, shape=1, strategy=0, step=0, lock=False, simplicity=1):
+def number(name, value):
+    return param("RichFloat", name, value)
+
+
+def tolerance(angle=30):
+    return [number("angle_tolerance", angle), number("level_tolerance", 5)]
+
+
+def result(simplicity=1, displacement=0):
+    return [
+        param("RichDynamicFloat", "simplicity", simplicity, min=0, max=1),
+        number("max_displacement", displacement),
+    ]
+
+
+def simplify(polycube=0, shape=1, strategy=0, step=0, lock=False, angle=30, **which):
     return "Polycube: Simplify", [
         *layers(polycube, shape),
         choice("strategy", strategy, "Best", "Paper", "Rounding"),
         choice("objective", 0, "Surface patches", "Blocks", "Blocks with padding"),
-        param("RichDynamicFloat", "simplicity", simplicity, min=0, max=1),
+        *result(**which),
         length("lattice_step", step),
         boolean("lock_selected_faces", lock),
         boolean("lattice_units", True),
+        *tolerance(angle),
     ]
 
 
@@ -56,30 +72,34 @@ def scalar_choice(value=0):
 
 def layout(polycube=0, shape=1):
     lock = boolean("lock_selected_faces", False)
-    return "Polycube: Coarse Quad Layout", [*layers(polycube, shape), lock, scalar_choice()]
+    return "Polycube: Coarse Quad Layout", [*layers(polycube, shape), *result(), lock, scalar_choice(), *tolerance()]
 
 
-def quads(polycube=0, shape=1, edge=2):
+def quads(polycube=0, shape=1, edge=2, **which):
     lock = boolean("lock_selected_faces", False)
-    return "Polycube: Quad Remesh", [*layers(polycube, shape), length("edge_length", edge), lock, scalar_choice()]
+    size = [*layers(polycube, shape), length("edge_length", edge)]
+    return "Polycube: Quad Remesh", [*size, *result(**which), lock, scalar_choice(), *tolerance()]
 
 
-def hexes(file, polycube=0, shape=1, count=3000):
+def hexes(file, polycube=0, shape=1, count=3000, by_quality=True, **which):
     return "Polycube: Hex Remesh to File", [
         param("RichSaveFile", "file", file, ext="*.vtu"),
         *layers(polycube, shape),
         integer("hexes", count),
         integer("padding", 1),
+        boolean("by_quality", by_quality),
+        *result(**which),
         boolean("lock_selected_faces", False),
+        *tolerance(),
     ]
 
 
 def check():
-    return "Polycube: Check", [param("RichFloat", "angle_tolerance", 30), length("level_tolerance", 1)]
+    return "Polycube: Check", tolerance()
 
 
 def colour(by, polycube=0, shape=1):
-    return f"Polycube: Colour by {by}", layers(polycube, shape)
+    return f"Polycube: Colour by {by}", [*layers(polycube, shape), *tolerance()]
 
 
 def example(name=0, seed=1):
@@ -168,6 +188,15 @@ def test_hexahedra_are_the_files_that_the_command_writes(server, pair, command, 
     assert len(set(done.layer().face_scalar_array())) > 20
 
 
+def test_what_is_meshed_can_be_chosen(server, pair, command, tmp_path):
+    polycube, shape = files(pair, tmp_path)
+    options = ["remesh", shape, "--polycube", polycube, "--hexes", 800, "--simplicity", 0]
+    out = command(tmp_path / "out", *options)
+    done = server(pair, hexes(tmp_path / "hexes.vtu", count=800, by_quality=False, simplicity=0))
+    assert done.code == 0, done.output
+    assert (tmp_path / "hexes.vtu").read_bytes() == (out / "hexes.vtu").read_bytes()
+
+
 def test_check_says_why_and_colours_show_labels(server, pair):
     done = server(pair[:1], check())
     assert done.code == 0 and "this is a valid polycube" in done.output
@@ -203,6 +232,9 @@ def test_wrong_parameters_are_errors(server, pair, tmp_path):
         (simplify(strategy=2, step=40), "lattice"),
         (simplify(step=-1), "scale"),
         (simplify(simplicity=2), "simplicity"),
+        (simplify(displacement=-1), "displacement"),
+        (simplify(angle=60), "45"),
+        (quads(simplicity=-1), "simplicity"),
         (quads(edge=0), "positive"),
         (hexes(tmp_path / "hexes.obj"), "Choose a name"),
         (hexes(tmp_path / "none" / "hexes.vtu"), "Choose another"),

@@ -1,6 +1,8 @@
 """The plugin in PyMeshLab: every filter, every way it can fail, and the same results as the command."""
 
 import json
+import os
+from pathlib import Path
 
 import numpy
 import pytest
@@ -147,6 +149,46 @@ def test_simplicity_trades_blocks_for_displacement(pair):
     # The front is ordered by the displacement of the order alone; rounding to the lattice adds a step at most.
     assert near["max_displacement"] <= few["max_displacement"] + 1
     assert near["surface_patches_after"] <= near["surface_patches_before"]
+
+
+def test_a_displacement_limit_is_kept(quad_pair):
+    ring = [Mesh(m.points, [half for a, b, c, d in m.faces for half in ([a, b, c], [a, c, d])]) for m in quad_pair]
+    free, near = simplified(ring)[1], simplified(ring, max_displacement=6.0)[1]
+    assert near["max_displacement"] <= 6.0 < free["max_displacement"]
+    assert free["surface_patches_after"] < near["surface_patches_after"] < near["surface_patches_before"]
+
+
+def test_what_is_meshed_can_be_chosen(pair, command, tmp_path):
+    polycube, shape = (mesh.write(tmp_path / f"{name}.off") for mesh, name in zip(pair, ("polycube", "shape")))
+    options = ["remesh", shape, "--polycube", polycube, "--hexes", 800]
+    made = {"polycube": 0, "shape": 1, "hexes": 800, "file": str(tmp_path / "hexes.vtu")}
+    for choice, parameters in (
+        (["--max-displacement", 5], {"max_displacement": 5.0}),
+        (["--simplicity", 0.5], {"simplicity": 0.5, "by_quality": False}),
+    ):
+        out = command(tmp_path / choice[0].strip("-"), *options, *choice)
+        document(*pair).apply_filter("generate_polycube_hex_remesh", **made, **parameters)
+        assert (tmp_path / "hexes.vtu").read_bytes() == (out / "hexes.vtu").read_bytes()
+
+
+def test_quads_and_layout_take_a_simplicity(pair):
+    for name in ("generate_polycube_quad_remesh", "generate_polycube_coarse_quad_layout"):
+        few, near = (document(*pair).apply_filter(name, simplicity=s) for s in (1.0, 0.0))
+        assert few["surface_patches_after"] < near["surface_patches_after"]
+
+
+@pytest.mark.parametrize("name", ["compute_polycube_check", "generate_polycube_simplified", "set_polycube_color_by_label_per_face"])
+def test_a_slanted_polycube_needs_a_tolerance(pair, name):
+    """Turned by 12 degrees about Z, it is one with a tolerance of 30 degrees and none with 10."""
+    c, s = numpy.cos(numpy.radians(12)), numpy.sin(numpy.radians(12))
+    slanted = Mesh(pair[0].points @ numpy.array([[c, s, 0], [-s, c, 0], [0, 0, 1]]), pair[0].faces)
+    tolerant = {"angle_tolerance": 30.0, "level_tolerance": 30.0}
+    values = document(slanted).apply_filter(name, **tolerant)
+    assert values.get("valid", True)
+    if name == "compute_polycube_check":
+        assert not document(slanted).apply_filter(name, **{**tolerant, "angle_tolerance": 10.0})["valid"]
+    else:
+        fails(document(slanted), "axis|axes|degrees", name, **{**tolerant, "angle_tolerance": 10.0})
 
 
 def test_objectives_differ_in_what_they_make_few(pair):
@@ -318,9 +360,10 @@ def test_one_layer_is_enough(pair):
 
 
 def test_a_real_polycube_gives_what_the_command_gives(command, tmp_path):
-    folder = ROOT / "../shared/data"
+    folder = Path(os.environ.get("POLYCUBE_DATA", ROOT / "../shared/data"))
     names = [folder / f"marco2016sgp-block.{name}.obj" for name in ("shape", "polycube")]
     if not names[1].exists():
+        assert os.environ.get("POLYCUBE_REQUIRE_DATA") != "1", f"{names[1]} is missing"
         pytest.skip("the real polycubes are not there")
     layers = ml.MeshSet()
     for name in names:
@@ -386,6 +429,9 @@ def test_numbers_out_of_range_are_refused(pair, tmp_path):
     fails(layers, "positive", "generate_polycube_quad_remesh", edge_length=ml.PureValue(0.0))
     fails(layers, "scale", "generate_polycube_simplified", lattice_step=ml.PureValue(-1.0))
     fails(layers, "tolerance|45", "compute_polycube_check", angle_tolerance=60.0)
+    fails(layers, "tolerance|45", "generate_polycube_simplified", angle_tolerance=60.0)
+    fails(layers, "tolerance", "generate_polycube_quad_remesh", level_tolerance=-1.0)
+    fails(layers, "displacement", "generate_polycube_hex_remesh", file=file, max_displacement=-1.0)
     fails(layers, "seed", "create_polycube_example", seed=-1)
     with pytest.raises(ml.PyMeshLabException):
         layers.apply_filter("generate_polycube_simplified", polycube=7)

@@ -28,7 +28,7 @@ struct Level {
     double coordinate = 0.0;  ///< Where it lies, in units of the mesh.
 };
 
-/// A plane region of the polycube's surface.
+/// A plane region of the polycube's surface: the boundary faces of one label that hang together, straightened.
 struct Facet {
     std::int8_t label = 0;    ///< 0 to 5 for +X -X +Y -Y +Z -Z.
     std::uint32_t level = 0;  ///< Its level.
@@ -82,6 +82,14 @@ struct Checked {
 };
 
 /// Checks whether a mesh is a valid polycube and reads its structure. A broken mesh is a result, not an exception.
+///
+/// @code
+/// const polycube::Checked checked = polycube::check({cube, shape});
+/// for (const polycube::Violation& violation : checked.violations) {
+///     std::clog << to_string(violation.place) << ": " << violation.message << " (" << violation.remedy << ")\n";
+/// }
+/// if (checked.valid()) std::clog << checked.structure->counts.blocks << " blocks\n";
+/// @endcode
 ///
 /// @throws Error mesh for buffers that are no mesh (an index out of range); mismatch when labels do not fit; cancelled.
 Checked check(const Input& input, const Tolerance& tolerance = {}, const Context& context = {});

@@ -9,6 +9,18 @@ namespace polycube {
 
 /// Carries progress out of and cancellation into a call. Copies share both. Cancellation is sticky: a cancelled context
 /// stops every later call it is given to.
+///
+/// @code
+/// polycube::Context context([](const char* stage, double progress) {
+///     std::clog << stage << ' ' << progress << '\n';
+///     return progress < 0.5;  // false stops the call, as `context.cancel()` does from another thread
+/// });
+/// try {
+///     polycube::simplify({cube, shape}, {}, context);
+/// } catch (const polycube::Error& error) {
+///     if (error.kind() != polycube::ErrorKind::cancelled) throw;
+/// }
+/// @endcode
 class Context {
  public:
     /// Called with the name of the stage and the progress in [0, 1], which never decreases; returns whether to go on.

@@ -53,13 +53,23 @@ struct CellField {
 /// @throws Error io, parse (with the line), mesh (nothing in it, not finite), unsupported.
 Mesh read_mesh(const std::string& path);
 
-/// Reads a polycube and its shape, in this order, and checks that they have the same cells.
+/// Reads a polycube and its shape and checks that they have the same cells. The order is **polycube first, then
+/// shape**, in the arguments and in the pair that is returned (Python's `read_pair` has the shape first).
+///
+/// @code
+/// const auto [cube, shape] = polycube::read_pair("ring.polycube.obj", "ring.shape.obj");
+/// @endcode
 ///
 /// @throws Error as `read_mesh`, and mismatch naming the first difference.
 std::pair<Mesh, Mesh> read_pair(const std::string& polycube, const std::string& shape);
 
 /// Writes a mesh, whole or not at all: to a temporary name first. .ply, .vtk and .vtu hold every field, .mesh one of
 /// integers, the others none. The bytes depend on the mesh alone, and are those that the command `polycube` writes.
+///
+/// @code
+/// std::vector<double> quality(cube.cell_count(), 1.0);
+/// polycube::write_mesh("cube.vtu", cube, {{"quality", quality}});
+/// @endcode
 ///
 /// @throws Error io, unsupported (the format cannot hold the cells), mesh, option (a field's name or length).
 void write_mesh(const std::string& path, const Mesh& mesh, const std::vector<CellField>& fields = {});

@@ -33,7 +33,8 @@ struct RemeshOptions {
     std::uint32_t padding = 1;
     /// Leave the hexahedra out.
     bool surface_only = false;
-    /// The largest Hausdorff distance to accept, as a part of the bounding box's diagonal, above 0.
+    /// The largest Hausdorff distance to accept, as a **fraction** of the bounding box's diagonal, above 0: 0.005 is
+    /// half a percent. (The command and Python take percent.)
     double max_hausdorff = 0.005;
 };
 
@@ -82,7 +83,7 @@ struct RemeshReport {
     std::uint64_t hexes = 0;       ///< Number of hexahedra; 0 for a surface alone.
     std::uint64_t hex_blocks = 0;  ///< Blocks of the base complex of the hexahedra, counted on the finished mesh.
     std::uint64_t inverted = 0;    ///< Hexahedra whose scaled Jacobian is not positive.
-    std::uint64_t released = 0;    ///< Vertices that left polycube corners and edges where hexahedra were inverted or poor.
+    std::uint64_t released = 0;    ///< Vertices that left polycube corners and edges for the sake of bad hexahedra.
     std::optional<double> min_scaled_jacobian;   ///< Nothing without hexahedra.
     std::optional<double> mean_scaled_jacobian;  ///< Nothing without hexahedra.
     double hausdorff = 0.0;           ///< Hausdorff distance between quadrilaterals and shape, in units of the shape.
@@ -109,6 +110,15 @@ struct Remeshed {
 ///
 /// Where inverted hexahedra remain or the surface is farther from the shape than asked for, the result is given all the
 /// same and the report says so.
+///
+/// @code
+/// polycube::RemeshOptions options;
+/// options.size = polycube::Size{polycube::Size::Kind::hexes, 500};
+/// const polycube::Remeshed result = polycube::remesh({cube, shape}, options);
+/// for (const std::string& fault : result.report.faults) std::clog << fault << '\n';
+/// polycube::write_mesh("hexes.vtu", result.hexes->mesh, result.hexes->fields());
+/// polycube::write_mesh("layout.vtk", result.layout.blocks, result.layout.block_fields());
+/// @endcode
 ///
 /// @throws Error as `simplify()`; option for a size, padding or distance out of range.
 Remeshed remesh(const Input& input, const RemeshOptions& options = {}, const Context& context = {});

@@ -85,15 +85,15 @@ struct Options {
     /// round.
     double lambda_min = 0.0;
     Solver solver = Solver::exact;
-    /// Without one: padded blocks for a volume, patches for a surface.
+    /// What `Strategy::best` makes small. Without one: padded blocks for a volume, patches for a surface.
     std::optional<Objective> objective;
     Effort effort;
-    /// From 1, the fewest blocks (the default), to 0, the least displacement.
+    /// How far `Strategy::best` goes, from 1, the fewest blocks (the default), to 0, the least displacement.
     std::optional<double> simplicity;
     /// The farthest that `Strategy::best` may move a corner, in units of the polycube.
     std::optional<double> max_displacement;
-    /// The largest mean angle distortion of the map from the shape to the result to accept, at least 1: of the front,
-    /// the point with the fewest blocks that keeps it is taken.
+    /// The largest mean angle distortion of the map from the shape to the result of `Strategy::best` to accept, at
+    /// least 1: of the front, the point with the fewest blocks that keeps it is taken.
     std::optional<double> max_distortion;
     Tolerance tolerance;
     Guides guides;
@@ -229,6 +229,15 @@ class Simplified {
 /// result.
 ///
 /// The result has the topology of the input, never more blocks, and is the same bytes for any number of threads.
+///
+/// @code
+/// polycube::Options options;
+/// options.max_displacement = 3.0;  // units of the polycube
+/// options.guides.fixed_faces = {0};
+/// const polycube::Simplified simple = polycube::simplify({cube, shape}, options);
+/// polycube::write_mesh("simple.obj", simple.polycube());
+/// const polycube::Simplified near = simple.at({cube, shape}, 0.0);  // for a slider
+/// @endcode
 ///
 /// @throws Error mesh or polycube (the first violation, see `check()` for all), mismatch, option, infeasible,
 /// cancelled.

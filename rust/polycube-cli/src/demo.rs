@@ -4,7 +4,8 @@ use crate::args::{PolycubeArgs, ToleranceArgs};
 use crate::failure::Result;
 use crate::output::Output;
 use crate::progress::Progress;
-use crate::simplify::{self, SolverArg, StrategyArg};
+use crate::search::SearchArgs;
+use crate::simplify::{self, StrategyArg};
 use crate::{table, terminal};
 use clap::ValueHint;
 use clap::builder::PossibleValue;
@@ -119,17 +120,12 @@ fn job(args: &Args, folder: &Path) -> simplify::Args {
         strategy: StrategyArg::default(),
         scale: None,
         edge_length: None,
-        lambda_min: 0.0,
         objective: None,
-        steps: polycube::align::Effort::default().steps_per_level,
-        proof_nodes: polycube::align::Effort::default().proof_nodes,
-        time_limit: None,
         simplicity: 1.0,
         max_displacement: None,
         max_distortion: None,
-        guides: None,
         pareto: false,
-        solver: SolverArg::default(),
+        search: SearchArgs::default(),
         format: None,
         quiet: args.quiet,
     }

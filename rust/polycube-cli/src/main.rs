@@ -14,6 +14,7 @@ mod pareto;
 mod progress;
 mod remesh;
 mod report;
+mod search;
 mod simplify;
 mod table;
 mod terminal;

@@ -1,5 +1,6 @@
 //! A folder of files that appear together or not at all.
 
+use polycube::mesh::write_atomically;
 use polycube::{Context, Error, ErrorKind, Result};
 use std::fs;
 use std::io::{self, Write};
@@ -94,19 +95,20 @@ impl Drop for Output {
     }
 }
 
-/// Writes one file whole or not at all, unless the context was cancelled, and makes its folder.
+/// Writes one file as [`write_atomically`] does, unless the context was cancelled, and makes its folder.
 ///
 /// # Errors
-/// [`ErrorKind::Option`] for a path without a file name; those of [`Output`].
+/// [`ErrorKind::Option`] for a path without a file name; [`ErrorKind::Io`], and a folder made for the file is removed.
 pub fn write_file(path: &Path, bytes: &[u8], context: &Context) -> Result<()> {
-    let (Some(name), Some(folder)) = (path.file_name().and_then(|n| n.to_str()), path.parent()) else {
+    let (Some(_), Some(folder)) = (path.file_name(), path.parent()) else {
         let message = format!("{} is not the name of a file", path.display());
         return Err(Error::new(ErrorKind::Option, message).remedy("name a file to write"));
     };
-    let folder = if folder.as_os_str().is_empty() { Path::new(".") } else { folder };
+    context.tick(1.0)?;
     let mut output = Output::new(folder)?;
-    output.add(name, bytes)?;
-    output.publish(&[], context)
+    write_atomically(path, bytes)?;
+    output.made.clear();
+    Ok(())
 }
 
 fn failed(action: &str, path: &Path, error: &io::Error) -> Error {
@@ -158,6 +160,32 @@ mod tests {
         assert_eq!(output.add("taken", b"2").unwrap_err().kind, ErrorKind::Io);
         drop(output);
         assert_eq!(names(root.path()), ["taken"]);
+    }
+
+    #[test]
+    fn one_file_is_written_with_its_folder_or_not_at_all() {
+        let root = tempfile::tempdir().unwrap();
+        let path = root.path().join("a/b/page");
+        let cancelled = Context::default();
+        cancelled.cancel();
+        assert_eq!(write_file(&path, b"1", &cancelled).unwrap_err().kind, ErrorKind::Cancelled);
+        fs::create_dir(root.path().join("taken")).unwrap();
+        assert_eq!(write_file(&root.path().join("taken"), b"1", &Context::default()).unwrap_err().kind, ErrorKind::Io);
+        assert_eq!(names(root.path()), ["taken"]);
+        write_file(&path, b"1", &Context::default()).unwrap();
+        assert_eq!((fs::read(&path).unwrap(), names(path.parent().unwrap())), (b"1".to_vec(), vec!["page".into()]));
+        assert_eq!(write_file(Path::new("/"), b"", &Context::default()).unwrap_err().kind, ErrorKind::Option);
+    }
+
+    #[cfg(unix)]
+    #[test]
+    fn one_file_is_written_through_a_link() {
+        let root = tempfile::tempdir().unwrap();
+        let (page, link) = (root.path().join("page"), root.path().join("link"));
+        std::os::unix::fs::symlink(&page, &link).unwrap();
+        write_file(&link, b"1", &Context::default()).unwrap();
+        assert_eq!(fs::read(page).unwrap(), b"1");
+        assert!(fs::symlink_metadata(link).unwrap().is_symlink());
     }
 
     #[test]

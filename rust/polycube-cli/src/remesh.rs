@@ -7,6 +7,7 @@ use crate::mesh_files::MeshFiles;
 use crate::output::Output;
 use crate::progress::Progress;
 use crate::report::{Files, RemeshRun};
+use crate::search::SearchArgs;
 use crate::simplify::{LABELS, ObjectiveArg, StrategyArg, format};
 use crate::{table, terminal};
 use clap::ValueHint;
@@ -77,6 +78,10 @@ pub struct Args {
     /// Which result of `best` is meshed.
     #[command(flatten)]
     pub choice: ChoiceArgs,
+
+    /// How long and how it is searched, and what must stay.
+    #[command(flatten)]
+    pub search: SearchArgs,
 
     /// The largest Hausdorff distance between mesh and shape to accept, in percent of the bounding box's diagonal
     #[arg(long, value_name = "PERCENT", value_parser = percent, default_value_t = 0.5)]
@@ -150,11 +155,11 @@ impl SizeArgs {
 impl Args {
     fn options(&self) -> RemeshOptions {
         RemeshOptions {
-            simplify: self.choice.set(Options {
+            simplify: self.search.set(self.choice.set(Options {
                 strategy: self.strategy.0,
                 tolerance: self.tolerance.get(),
                 ..Options::default()
-            }),
+            })),
             size: self.size.get(),
             padding: usize::from(self.padding),
             surface_only: self.surface_only,
@@ -200,10 +205,13 @@ pub fn work(args: &Args, context: &Context) -> Result<Remeshed> {
     let read = start.elapsed().as_secs_f64();
     let middle = context.stage("read", 0.05, 0.95);
     let about = Failure::in_file(&args.polycube);
-    let mut result = remesh(&meshes.input(), &args.options(), &middle).map_err(about)?;
+    let (input, mut options) = (meshes.input(), args.options());
+    options.simplify.guides = args.search.guides(&args.polycube, &input, &options.simplify.tolerance)?;
+    let mut result = remesh(&input, &options, &middle).map_err(about)?;
     result.report.simplify.seconds.read = read;
     let done = start.elapsed().as_secs_f64();
-    write(args, &mut result, &formats, &context.stage("write", 0.95, 1.0), || start.elapsed().as_secs_f64() - done)?;
+    let elapsed = || start.elapsed().as_secs_f64() - done;
+    write(args, (&mut result, &options), &formats, &context.stage("write", 0.95, 1.0), elapsed)?;
     Ok(result)
 }
 
@@ -279,7 +287,7 @@ fn quad_fields(result: &Remeshed, format: Format) -> Vec<CellField> {
 
 fn write(
     args: &Args,
-    result: &mut Remeshed,
+    (result, options): (&mut Remeshed, &RemeshOptions),
     formats: &Formats,
     context: &Context,
     elapsed: impl Fn() -> f64,
@@ -294,12 +302,11 @@ fn write(
     let labels: String = result.simplified.input.labels().map(|l| format!("{}\n", l.index())).collect();
     output.add(LABELS, labels.as_bytes())?;
     let polycube = format!("polycube.{}", formats.polycube);
-    let options = args.options();
     drop(files);
     let seconds = &mut result.report.simplify.seconds;
     seconds.write = elapsed();
     seconds.total += seconds.read + seconds.write;
-    let run = RemeshRun { input: &args.files(), options: (&options).into(), output: &polycube, report: &result.report };
+    let run = RemeshRun { input: &args.files(), options: options.into(), output: &polycube, report: &result.report };
     output.add("report.json", terminal::to_json(&run)?.as_bytes())?;
     let stale = match result.hexes {
         Some(_) => Vec::new(),

@@ -5,7 +5,7 @@ use polycube::align::{Effort, Guides, SolverKind};
 use polycube::layout::Objective;
 use polycube::remesh::{RemeshOptions, RemeshReport, Size};
 use polycube::simplify::{Options, Report, Simplified};
-use polycube::structure::{Arrangement, Edge, Facet, Tolerance};
+use polycube::structure::{Arrangement, Edge, Facet, Tolerance, placement_of};
 use serde::Serialize;
 
 /// The files a run read, as they were named.
@@ -160,7 +160,7 @@ pub fn broken(result: &Simplified) -> Vec<Broken> {
     if result.report.valid {
         return Vec::new();
     }
-    let levels: Vec<f64> = result.levels.iter().map(|&x| x as f64).collect();
+    let levels = placement_of(&result.levels);
     let conflicts = Arrangement::new(&result.input.structure, &levels).conflicts();
     conflicts.into_iter().map(|c| Broken { facets: c.facets, point: c.point }).collect()
 }

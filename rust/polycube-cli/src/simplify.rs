@@ -7,10 +7,11 @@ use crate::output::Output;
 use crate::pareto::Point;
 use crate::progress::Progress;
 use crate::report::{self, Files, RunReport, StructureFile};
-use crate::{guides, pareto, table, terminal};
+use crate::search::SearchArgs;
+use crate::{pareto, table, terminal};
 use clap::ValueHint;
 use clap::builder::PossibleValue;
-use polycube::align::{Effort, SolverKind, Strategy};
+use polycube::align::Strategy;
 use polycube::layout::Objective;
 use polycube::mesh::{self, Format};
 use polycube::simplify::{Options, Simplified};
@@ -54,6 +55,10 @@ pub struct Args {
     #[arg(long, value_enum, default_value_t)]
     pub strategy: StrategyArg,
 
+    /// How long and how it is searched, and what must stay.
+    #[command(flatten)]
+    pub search: SearchArgs,
+
     /// Lattice steps per unit of the polycube [default: 1 if all its levels are integers, else one step per mean mesh
     /// edge]
     #[arg(long, value_name = "S", value_parser = positive, conflicts_with = "edge_length")]
@@ -63,17 +68,9 @@ pub struct Args {
     #[arg(long, value_name = "H", value_parser = positive)]
     pub edge_length: Option<f64>,
 
-    /// Stop before the weight λ of staying close to the input falls below this, from 0 (coarsest) to 1 (one round)
-    #[arg(long, value_name = "L", value_parser = fraction, default_value_t = 0.0)]
-    pub lambda_min: f64,
-
     /// Which number `best` makes small [default: blocks_padded for a volume, surface_patches for a surface]
     #[arg(long, value_enum)]
     pub objective: Option<ObjectiveArg>,
-
-    /// How long `best` searches: moves tried per level of the polycube in each of its eight chains
-    #[arg(long, value_name = "N", default_value_t = Effort::default().steps_per_level)]
-    pub steps: u32,
 
     /// Trade blocks for closeness: from 1, the fewest blocks that `best` finds, to 0, the least displacement
     #[arg(long, value_name = "S", value_parser = fraction, default_value_t = 1.0)]
@@ -88,26 +85,10 @@ pub struct Args {
     #[arg(long, value_name = "D", value_parser = at_least_one)]
     pub max_distortion: Option<f64>,
 
-    /// Facets that must not move, that must or must not align, and planes of symmetry to keep: a JSON file, see README.md
-    #[arg(long, value_name = "FILE", value_hint = ValueHint::FilePath)]
-    pub guides: Option<PathBuf>,
-
     /// Measure every point between the fewest blocks and the least displacement that `best` found, and write their
     /// meshes to the folder `front` in the output folder
     #[arg(long)]
     pub pareto: bool,
-
-    /// How long `best` tries to prove that its result cannot be beaten: partial orders looked at
-    #[arg(long, value_name = "N", default_value_t = Effort::default().proof_nodes)]
-    pub proof_nodes: u64,
-
-    /// Stop the search after this many seconds with the best found; the result may then differ from run to run
-    #[arg(long, value_name = "SECONDS", value_parser = positive)]
-    pub time_limit: Option<f64>,
-
-    /// Who solves the integer problems
-    #[arg(long, value_enum, default_value_t)]
-    pub solver: SolverArg,
 
     /// Format of the simplified polycube: obj, off, ply, stl, mesh, vtk or vtu [default: as the input]
     #[arg(long, value_name = "EXT", value_parser = format)]
@@ -147,24 +128,6 @@ impl clap::ValueEnum for StrategyArg {
     }
 }
 
-/// A [`SolverKind`] on the command line.
-#[derive(Clone, Copy, Debug, Default)]
-pub struct SolverArg(pub SolverKind);
-
-impl clap::ValueEnum for SolverArg {
-    fn value_variants<'a>() -> &'a [Self] {
-        &[Self(SolverKind::Exact), Self(SolverKind::Linear)]
-    }
-
-    fn to_possible_value(&self) -> Option<PossibleValue> {
-        let (name, help) = match self.0 {
-            SolverKind::Exact => ("exact", "Minimum cuts in integer arithmetic"),
-            SolverKind::Linear => ("linear", "Linear programs, with the separation planes as in the paper; slow"),
-        };
-        Some(PossibleValue::new(name).help(help))
-    }
-}
-
 /// An [`Objective`] on the command line.
 #[derive(Clone, Copy, Debug)]
 pub struct ObjectiveArg(pub Objective);
@@ -186,24 +149,16 @@ impl clap::ValueEnum for ObjectiveArg {
 
 impl Args {
     fn options(&self) -> Options {
-        Options {
+        self.search.set(Options {
             strategy: self.strategy.0,
             scale: self.scale.or(self.edge_length.map(f64::recip)),
-            lambda_min: self.lambda_min,
-            solver: self.solver.0,
             objective: self.objective.map(|o| o.0),
-            effort: Effort {
-                steps_per_level: self.steps,
-                proof_nodes: self.proof_nodes,
-                // What no duration holds is no limit.
-                time_limit: self.time_limit.and_then(|s| std::time::Duration::try_from_secs_f64(s).ok()),
-            },
             simplicity: Some(self.simplicity),
             max_displacement: self.max_displacement,
             max_distortion: self.max_distortion,
             tolerance: self.mesh.tolerance.get(),
             ..Options::default()
-        }
+        })
     }
 
     fn files(&self) -> Files {
@@ -255,9 +210,7 @@ pub fn work(args: &Args, context: &Context) -> Result<Done> {
     let middle = context.stage("read", 0.1, if args.pareto { 0.5 } else { 0.9 });
     let about = Failure::in_file(&args.mesh.polycube);
     let (input, mut options) = (meshes.input(), args.options());
-    if let Some(file) = &args.guides {
-        options.guides = guides::read(file, &args.mesh.polycube, &input, &options.tolerance)?;
-    }
+    options.guides = args.search.guides(&args.mesh.polycube, &input, &options.tolerance)?;
     let mut result = polycube::simplify::simplify(&input, &options, &middle).map_err(about)?;
     let front = context.stage("front", 0.5, 0.9);
     let others = if args.pareto { result.pareto(&input, &front)? } else { Vec::new() };

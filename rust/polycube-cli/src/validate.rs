@@ -5,6 +5,7 @@ use crate::failure::{INVALID, Result};
 use crate::mesh_files::{read_labels, read_meshes};
 use crate::terminal;
 use clap::ValueHint;
+use polycube::mesh;
 use polycube::simplify::Input;
 use polycube::validate::{Finding, Subject, validate};
 use polycube::{Error, ErrorKind, Place};
@@ -61,7 +62,11 @@ pub fn run(args: &Args) -> Result<ExitCode> {
 fn check(args: &Args) -> Result<Vec<Finding>> {
     let (mesh, shape) = match read_meshes(&args.mesh.polycube, args.shape.as_deref()) {
         Ok(meshes) => meshes,
-        Err(error) => return Ok(vec![unreadable(error)?]),
+        Err(error) => {
+            // A sound polycube leaves the shape.
+            let shape = mesh::read(&args.mesh.polycube).is_ok();
+            return Ok(vec![unreadable(error, if shape { Subject::Shape } else { Subject::Polycube })?]);
+        }
     };
     let labels = match &args.mesh.labels {
         Some(file) if mesh.cells.boundary().is_ok() => Some(read_labels(file, &args.mesh.polycube, &mesh)?),
@@ -71,8 +76,8 @@ fn check(args: &Args) -> Result<Vec<Finding>> {
     Ok(validate(&input, &args.mesh.tolerance.get()))
 }
 
-/// The finding that an error of reading stands for.
-fn unreadable(error: Error) -> polycube::Result<Finding> {
+/// The finding that an error of reading `mesh` stands for.
+fn unreadable(error: Error, mesh: Subject) -> polycube::Result<Finding> {
     let rule = match (error.kind, error.place) {
         (ErrorKind::Mesh, Some(Place::Vertex(_))) => "not_finite",
         (ErrorKind::Mesh, _) => "empty",
@@ -80,7 +85,6 @@ fn unreadable(error: Error) -> polycube::Result<Finding> {
         (ErrorKind::Mismatch, _) => "mismatch",
         _ => return Err(error),
     };
-    let mesh = if rule == "mismatch" { Subject::Shape } else { Subject::Polycube };
     let remedy = match error.remedy.is_empty() {
         true => "export the mesh again".to_owned(),
         false => error.remedy,
@@ -96,12 +100,22 @@ fn line(finding: &Finding) -> String {
 }
 
 impl Verdict {
+    /// The files that the violations are in.
+    fn files(&self) -> String {
+        let in_one = |mesh: Subject| self.violations.iter().all(|v| v.mesh == mesh);
+        match &self.shape {
+            Some(shape) if in_one(Subject::Shape) => shape.clone(),
+            Some(shape) if !in_one(Subject::Polycube) => format!("{} and {shape}", self.file),
+            _ => self.file.clone(),
+        }
+    }
+
     fn to_text(&self) -> String {
         if self.valid {
             return format!("{}: valid\n", self.file);
         }
         let n = self.violations.len();
-        let mut text = format!("{}: {n} {}\n", self.file, if n == 1 { "violation" } else { "violations" });
+        let mut text = format!("{}: {n} {}\n", self.files(), if n == 1 { "violation" } else { "violations" });
         for group in self.violations.chunk_by(|a, b| (a.rule, a.mesh) == (b.rule, b.mesh)) {
             let of = if group[0].mesh == Subject::Shape { " (shape)" } else { "" };
             text += &format!("\n{}{of}: {}\n  remedy: {}\n", group[0].rule, group.len(), group[0].remedy);

@@ -8,6 +8,7 @@ use crate::options::options;
 use crate::run::run;
 use polycube::layout::{Counts, Pieces};
 use polycube::simplify::{self as core, Report};
+use polycube::structure::placement_of;
 use polycube::{Context, Error, ErrorKind};
 
 /// A simplified polycube, to be asked for other points of its front.
@@ -29,7 +30,7 @@ impl Simplified {
     pub fn data(&self) -> Result<SimplifiedData> {
         guard(|| {
             let core::Simplified { input, polycube, levels, report, .. } = &self.0;
-            let placement: Vec<f64> = levels.iter().map(|&x| x as f64).collect();
+            let placement = placement_of(levels);
             let pieces = polycube.as_ref().map(|mesh| Pieces::of_faces(input, &mesh.points, &placement));
             let Pieces { patch_of_face, block_of_face } = pieces.unwrap_or_default();
             Ok(SimplifiedData {

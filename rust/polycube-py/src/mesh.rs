@@ -222,7 +222,8 @@ pub fn read(py: Python<'_>, path: PathBuf) -> PyResult<PyMesh> {
     py.detach(|| mesh::read(&path)).map(PyMesh::from).map_err(|e| errors::about(py, &e, None))
 }
 
-/// Reads a shape and the polycube that it was deformed to, and returns them in this order.
+/// Reads a shape and the polycube that it was deformed to. The order is SHAPE FIRST, then polycube, in the arguments and in
+/// the tuple that is returned. (`simplify` takes the polycube first; the C++ and Rust `read_pair`, too.)
 ///
 /// Raises:
 ///     Mismatch: they do not have the same vertices and cells; and what `read` raises.
@@ -244,7 +245,7 @@ pub fn read_labels<'py>(py: Python<'py>, path: PathBuf, polycube: &PyMesh) -> Py
     Ok(numpy::PyArray1::from_vec(py, labels).into_any())
 }
 
-/// Makes an example: a shape and its polycube.
+/// Makes an example and returns SHAPE FIRST, then polycube, as `read_pair` does.
 ///
 /// Args:
 ///     name: one of `EXAMPLES`.

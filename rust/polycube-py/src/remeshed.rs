@@ -360,6 +360,8 @@ impl PyRemeshed {
 /// farther from the shape than asked for, the result is given all the same and `good` is False. The same input gives the
 /// same result, bit by bit. Other Python threads run meanwhile; Ctrl-C cancels.
 ///
+/// The order is SHAPE FIRST, then polycube (`simplify` takes the polycube first).
+///
 /// Args:
 ///     shape: the mesh that the polycube was deformed from, with the same cells: a surface or a volume.
 ///     polycube: the mesh whose boundary faces look along the axes.
@@ -369,9 +371,10 @@ impl PyRemeshed {
 ///     scale: lattice steps per unit of the polycube. 1 if its levels are integers, else one step per mean mesh edge.
 ///     padding: layers of hexahedra between the polycube and the surface, 0 to 16.
 ///     surface_only: leave the hexahedra out.
-///     max_hausdorff: the largest distance between mesh and shape to accept, in percent of the diagonal.
-///     max_displacement: the farthest that a corner may move, in units of the polycube.
-///     simplicity: from 1, the fewest blocks, to 0, the least displacement. If neither this nor a limit is given, the fewest blocks
+///     max_hausdorff: the largest distance between mesh and shape to accept, in percent of the diagonal (C++ and Rust take a
+///         fraction of it).
+///     max_displacement: only with "best", the farthest that a corner may move, in units of the polycube.
+///     simplicity: only with "best", from 1, the fewest blocks, to 0, the least displacement. If neither this nor a limit is given, the fewest blocks
 ///         whose hexahedra are good.
 ///     strategy, objective, max_distortion, locked_faces, guides, steps, proof_nodes, time_limit, lambda_min, solver,
 ///         angle_tolerance, level_tolerance, progress, cancel: as in `simplify`. "naive" meshes the polycube as it is.

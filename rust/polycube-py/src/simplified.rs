@@ -202,6 +202,31 @@ impl PySimplified {
         Listener { progress, cancel }.run(py, task)
     }
 
+    /// The same result at another scale, in lattice steps per unit of the input: the same blocks on a finer or coarser lattice.
+    /// Nothing is searched again; it takes the time of the morph. As in `simplify`, other threads run and `progress` and
+    /// `cancel` are heeded.
+    ///
+    /// Raises:
+    ///     InvalidOption: `scale` is not a positive number, or too large for the lattice.
+    ///     Infeasible: on this lattice there is no room between the facets that must not move.
+    ///     Cancelled: `cancel` was set.
+    #[pyo3(signature = (scale, *, progress=None, cancel=None))]
+    fn rescaled<'py>(
+        &self,
+        py: Python<'py>,
+        scale: f64,
+        progress: Option<Bound<'py, PyAny>>,
+        cancel: Option<Bound<'py, PyAny>>,
+    ) -> PyResult<Self> {
+        let parts = Arc::clone(&self.0);
+        let task = move |context: &Context| {
+            let Parts { source, result, .. } = &*parts;
+            let scaled = result.rescaled(&source.input(), scale, context).map_err(|e| source.failure(e))?;
+            Ok(Self::new(scaled, source.clone()))
+        };
+        Listener { progress, cancel }.run(py, task)
+    }
+
     fn __repr__(&self) -> String {
         let count = |c: polycube::layout::Counts| c.blocks_padded;
         let report = &self.0.result.report;
@@ -217,6 +242,9 @@ impl PySimplified {
 /// Facets, edges and corners stay; the result is a valid polycube on the integer lattice and never has more blocks. The same
 /// input gives the same result, bit by bit. Other Python threads run meanwhile; Ctrl-C cancels.
 ///
+/// The order is POLYCUBE FIRST, then shape, which may be left out (`remesh` takes the shape first). Name them to be sure:
+/// `simplify(polycube=cube, shape=shape)`. Lengths are in units of the polycube.
+///
 /// Args:
 ///     polycube: the mesh whose boundary faces look along the axes.
 ///     shape: the mesh that it was deformed from, with the same cells; the distortion of the map is measured against it.
@@ -225,12 +253,12 @@ impl PySimplified {
 ///         which may break the polycube.
 ///     scale: lattice steps per unit of the polycube. 1 if its levels are integers, else one step per mean mesh edge.
 ///     edge_length: the same as a length: a lattice step in units of the polycube.
-///     objective: what "best" makes small: "blocks_padded" (volumes), "blocks", or "surface_patches" (surfaces).
-///     simplicity: from 1, the fewest blocks, to 0, the least displacement.
-///     max_displacement: the farthest that a corner may move, in units of the polycube.
-///     max_distortion: the largest mean angle distortion, 1 or more, of the map from the shape to the result.
-///     locked_faces: numbers of boundary faces whose facets must not move.
-///     guides: what else to keep: `{"fixed": facets, "together": [facets], "apart": [[facet, facet]], "symmetry":
+///     objective: only with "best", what it makes small: "blocks_padded" (volumes), "blocks", or "surface_patches" (surfaces).
+///     simplicity: only with "best", from 1, the fewest blocks, to 0, the least displacement.
+///     max_displacement: only with "best", the farthest that a corner may move, in units of the polycube.
+///     max_distortion: only with "best", the largest mean angle distortion, 1 or more, of the map from the shape to the result.
+///     locked_faces: with every strategy, numbers of boundary faces whose facets must not move.
+///     guides: with every strategy, what else to keep: `{"fixed": facets, "together": [facets], "apart": [[facet, facet]], "symmetry":
 ///         [{"axis": 0, "at": 0.0}]}`, by the numbers of `structure(polycube)`.
 ///     steps: how long "best" searches: moves tried per level in each of eight chains.
 ///     proof_nodes: how long it tries to prove that its result cannot be beaten.
@@ -239,7 +267,8 @@ impl PySimplified {
 ///     solver: "exact" minimum cuts, or "linear" programs, which are slow.
 ///     angle_tolerance: largest angle between a face and the nearest axis, in degrees, 0 to 45.
 ///     level_tolerance: largest distance of a vertex from the plane of its facet, as a part of the diagonal, 0 to 1.
-///     progress: called on this thread now and then as `progress(stage, fraction)`.
+///     progress: called on this thread now and then as `progress(stage, fraction)`, fraction from 0 to 1. What it returns is
+///         not looked at; what it raises stops the work and is raised by this call.
 ///     cancel: an object with `is_set()`, such as a `threading.Event`; once it is set, `Cancelled` is raised.
 ///
 /// Raises:

@@ -42,13 +42,14 @@ def test_everything_public_is_documented():
     assert [name for name, value in values.items() if not inspect.getdoc(value)] == []
 
 
-def test_the_readme(tmp_path, monkeypatch):
+@pytest.mark.parametrize("readme", [HERE / "README.md", HERE.parents[1] / "README.md"], ids=["module", "project"])
+def test_the_readme(readme, tmp_path, monkeypatch):
     monkeypatch.chdir(tmp_path)
-    code = re.findall(r"```python\n(.*?)```", (HERE / "README.md").read_text(), re.DOTALL)
+    code = re.findall(r"```python\n(.*?)```", readme.read_text(), re.DOTALL)
     assert code
     names: dict[str, object] = {}
     for block in code:
-        exec(compile(block, "README.md", "exec"), names)
+        exec(compile(block, str(readme), "exec"), names)
 
 
 @pytest.mark.parametrize("example", sorted((HERE / "examples").glob("*.py")), ids=lambda path: path.name)

@@ -108,6 +108,22 @@ def test_the_front_and_simplicity():
         polycube.simplify(mesh, strategy="paper").at(0.5)
 
 
+def test_another_scale_has_the_same_blocks():
+    mesh = polycube.example("cube-spikes", kind="quads")[1]
+    simple = polycube.simplify(mesh)
+    finer = simple.rescaled(2.5)
+    again = polycube.simplify(mesh, scale=2.5)
+    assert finer.scale == 2.5 and finer.counts_after == simple.counts_after
+    assert np.array_equal(finer.levels, again.levels)
+    assert np.array_equal(finer.polycube.points, again.polycube.points)
+    assert np.array_equal(finer.rescaled(simple.scale).polycube.points, simple.polycube.points)
+    with pytest.raises(polycube.InvalidOption):
+        simple.rescaled(0.0)
+    fixed = polycube.simplify(mesh, guides={"fixed": list(range(len(simple.structure.facet_level)))})
+    with pytest.raises(polycube.Infeasible):
+        fixed.rescaled(0.05)
+
+
 def facet_planes(simple: polycube.Simplified) -> np.ndarray:
     return simple.levels[simple.structure.facet_level]
 

@@ -5,6 +5,8 @@
 
 #[path = "../tests/common/data.rs"]
 mod data;
+#[path = "../tests/common/models.rs"]
+mod models;
 
 use criterion::{BenchmarkId, Criterion, criterion_group, criterion_main};
 use polycube::Context;
@@ -46,7 +48,7 @@ fn stages(criterion: &mut Criterion, name: &str, mesh: &Mesh) {
 }
 
 fn real(criterion: &mut Criterion) {
-    for (name, mesh) in data::models() {
+    for (name, mesh) in models::models() {
         stages(criterion, &name, &mesh);
     }
 }

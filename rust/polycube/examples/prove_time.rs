@@ -8,7 +8,7 @@ use polycube::generate::random_polycube;
 use polycube::layout::Objective;
 use polycube::mesh::CellKind;
 use polycube::mesh::Mesh;
-use polycube::structure::{Polycube, Tolerance};
+use polycube::structure::{Polycube, Tolerance, placement_of};
 use std::time::{Duration, Instant};
 
 fn main() {
@@ -22,7 +22,7 @@ fn main() {
     let s = &polycube.structure;
     let context = polycube::Context::default();
     let aligned = align(s, &polycube.placement, &Options::default(), &context).expect("an alignment");
-    let levels: Vec<f64> = aligned.levels.iter().map(|&x| x as f64).collect();
+    let levels = placement_of(&aligned.levels);
     let start = Ranks::new(s, &levels);
     let of_axis = [0, 1, 2].map(|a| s.levels.iter().filter(|l| l.axis == a).count());
     let objectives = [Objective::BlocksPadded, Objective::Blocks, Objective::SurfacePatches];

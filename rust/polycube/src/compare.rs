@@ -67,6 +67,23 @@ pub struct Gain {
 /// The other one follows `options` but for the size: it has as many hexahedra as the first as nearly as the lattice allows
 /// (see [`scale_for`](crate::remesh::scale_for)), so that the two compare.
 ///
+/// ```
+/// use polycube::compare::compare;
+/// use polycube::generate::{Example, example};
+/// use polycube::mesh::CellKind;
+/// use polycube::remesh::RemeshOptions;
+/// use polycube::{Context, Input};
+///
+/// let (cube, shape) = example(Example::CubeSpikes, 1, CellKind::Quads)?;
+/// let input = Input { polycube: &cube, shape: Some(&shape), labels: None };
+/// let options = RemeshOptions { surface_only: true, ..RemeshOptions::default() };
+/// let found = compare(&input, &options, &Context::default())?;
+///
+/// println!("{} patches instead of {}", found.with.counts.surface_patches, found.without.counts.surface_patches);
+/// assert!(found.gain.surface_patches > 0.0);
+/// # Ok::<(), polycube::Error>(())
+/// ```
+///
 /// # Errors
 /// Those of [`remesh`], from either; [`ErrorKind::Cancelled`](crate::ErrorKind::Cancelled).
 pub fn compare(input: &Input, options: &RemeshOptions, context: &Context) -> Result<Comparison> {

@@ -18,6 +18,24 @@ struct Shared {
 ///
 /// Cancellation is sticky: once [`cancel`](Self::cancel) was called every later
 /// [`tick`](Self::tick) fails with [`ErrorKind::Cancelled`].
+///
+/// ```
+/// use polycube::generate::{Example, example};
+/// use polycube::mesh::CellKind;
+/// use polycube::simplify::simplify;
+/// use polycube::{Context, ErrorKind, Input, Options};
+///
+/// let context = Context::new(|stage, progress| eprintln!("{stage}: {:.0} %", 100.0 * progress));
+/// // A clone is for the button or signal handler that stops the work, on any thread.
+/// let button = context.clone();
+/// button.cancel();
+///
+/// let (cube, _) = example(Example::Ring, 1, CellKind::Quads)?;
+/// let input = Input { polycube: &cube, shape: None, labels: None };
+/// let stopped = simplify(&input, &Options::default(), &context);
+/// assert_eq!(stopped.unwrap_err().kind, ErrorKind::Cancelled);
+/// # Ok::<(), polycube::Error>(())
+/// ```
 #[derive(Clone)]
 pub struct Context {
     shared: Arc<Shared>,

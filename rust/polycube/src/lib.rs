@@ -1,7 +1,13 @@
 //! Turn a polycube into the coarsest good block structure there is.
 //!
 //! [`simplify`](simplify::simplify) is the way in, [`remesh`](remesh::remesh) goes on to quadrilaterals and hexahedra.
-//! Data flows one way: [`mesh`] → [`structure`] → [`align`] → [`layout`] → [`map`] → [`remesh`].
+//! Data flows one way: [`mesh`] → [`structure`] → [`layout`] → [`align`] → [`map`] → [`optimise`] → [`mod@simplify`] →
+//! [`mod@remesh`] → [`mod@compare`]. Beside it stand [`mod@validate`], which lists all that is wrong with an input, and
+//! [`generate`], which makes examples.
+//!
+//! Words: a **chart** is a set of boundary faces with one direction that hang together on the mesh; the **facet** is the same
+//! set as a plane region of the polycube. A facet has a **level**, its coordinate along its axis; facets of one axis that meet
+//! at a corner share one.
 //!
 //! ```
 //! use polycube::generate::{Example, example};
@@ -31,9 +37,14 @@ pub mod map;
 pub mod mesh;
 pub mod optimise;
 pub mod remesh;
+mod rng;
 pub mod simplify;
 pub mod structure;
 pub mod validate;
+
+#[cfg(test)]
+#[path = "../tests/common/data.rs"]
+mod data;
 
 pub use context::Context;
 pub use error::{Error, ErrorKind, Place, Result};

@@ -6,7 +6,7 @@ use crate::error::{Error, ErrorKind, Place, Result};
 use crate::layout::{Counts, Objective, count};
 use crate::map::{Distortion, Flipped, distortion, flipped, morph};
 use crate::mesh::{Mesh, Point};
-use crate::structure::{Arrangement, Deviation, Polycube, Tolerance, Violation};
+use crate::structure::{Arrangement, Deviation, Polycube, Tolerance, Violation, placement_of};
 use std::time::Instant;
 
 mod corners;
@@ -40,7 +40,7 @@ pub struct Options {
     pub lambda_min: f64,
     /// Who solves the integer problems.
     pub solver: SolverKind,
-    /// Which number shall be small; by default padded blocks for a volume and patches for a surface.
+    /// Which number the strategy `best` makes small; by default padded blocks for a volume and patches for a surface.
     pub objective: Option<Objective>,
     /// How long the strategy `best` searches.
     pub effort: Effort,
@@ -302,7 +302,7 @@ impl Simplified {
         let options = align::Options { strategy: old.strategy, ..self.options.alignment(scale, input.polycube) };
         let aligning = context.stage("align", 0.0, 0.2);
         let levels = align::rescale(&polycube.structure, &polycube.placement, &self.levels, &options, &aligning)?;
-        let placement: Vec<f64> = levels.iter().map(|&x| x as f64).collect();
+        let placement = placement_of(&levels);
         let arrangement = Arrangement::new(&polycube.structure, &placement);
         let broken = arrangement.conflicts();
         let after = broken.is_empty().then(|| count(&arrangement));
@@ -329,7 +329,7 @@ fn finish(
 ) -> Result<Simplified> {
     let mut result = None;
     if report.valid {
-        let placement: Vec<f64> = levels.iter().map(|&x| x as f64).collect();
+        let placement = placement_of(&levels);
         let mut mesh = fit(&polycube, input.polycube, &placement, report.scale, &context.stage("morph", 0.0, 0.6))?;
         if report.strategy == Strategy::Best && !options.keep_flipped {
             let shape = input.shape.unwrap_or(input.polycube);

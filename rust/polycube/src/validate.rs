@@ -35,6 +35,26 @@ pub struct Finding {
 
 /// Lists every violation of the first rule of [`Violation`] that does not hold, then all elements that are turned over.
 /// Nothing for a valid polycube and a shape that goes with it; never fails, whatever the mesh. O(n log n) for n cells.
+///
+/// ```
+/// use polycube::Input;
+/// use polycube::generate::{Example, example};
+/// use polycube::mesh::CellKind;
+/// use polycube::structure::Tolerance;
+/// use polycube::validate::validate;
+///
+/// let (cube, shape) = example(Example::Ring, 1, CellKind::Triangles)?;
+/// let input = Input { polycube: &cube, shape: Some(&shape), labels: None };
+/// assert!(validate(&input, &Tolerance::default()).is_empty());
+///
+/// // The wrong way round, as files are easily given: the shape is no polycube.
+/// let input = Input { polycube: &shape, shape: Some(&cube), labels: None };
+/// for finding in validate(&input, &Tolerance::default()) {
+///     println!("{:?} at {:?}: {} ({})", finding.element, finding.at, finding.message, finding.remedy);
+/// }
+/// # assert!(!validate(&input, &Tolerance::default()).is_empty());
+/// # Ok::<(), polycube::Error>(())
+/// ```
 pub fn validate(input: &Input, tolerance: &Tolerance) -> Vec<Finding> {
     let mut findings = polycube(input, tolerance);
     let Some(shape) = input.shape else {

@@ -2,13 +2,14 @@
 
 mod common;
 
-use common::{cases, coarse, data, dense, read};
+use common::models::models;
+use common::{cases, coarse, dense, read};
 use polycube::Context;
 use polycube::align::{Alignment, Effort, Options, Strategy, align};
 use polycube::generate::{Cuboid, Example, Voxels, example, random_polycube, random_with_corners};
 use polycube::layout::Objective;
 use polycube::mesh::CellKind;
-use polycube::structure::{Polycube, Tolerance};
+use polycube::structure::{Polycube, Tolerance, placement_of};
 
 const OBJECTIVES: [Objective; 3] = [Objective::BlocksPadded, Objective::Blocks, Objective::SurfacePatches];
 
@@ -56,7 +57,7 @@ fn the_front_trades_blocks_for_displacement() {
     let nearest = run(&polycube, &Options { simplicity: 0.0, ..Options::default() });
     assert!(counted(&nearest, Objective::BlocksPadded) > counted(&coarsest, Objective::BlocksPadded));
     let moved = |a: &Alignment| {
-        let levels: Vec<f64> = a.levels.iter().map(|&x| x as f64).collect();
+        let levels = placement_of(&a.levels);
         polycube.structure.max_displacement(&polycube.placement, &levels)
     };
     let limit = f64::midpoint(moved(&nearest), moved(&coarsest));
@@ -77,7 +78,7 @@ fn no_step_of_the_front_is_half_of_the_way_from_the_fewest_blocks_to_the_input()
         let voxels = random_with_corners(seed, 60).expect("a random polycube");
         (format!("seed {seed}"), coarse(&voxels, CellKind::Quads))
     });
-    for (name, mesh) in random.chain(data::models()) {
+    for (name, mesh) in random.chain(models()) {
         let polycube = Polycube::new(&mesh, None, &Tolerance::default()).expect("the model is a polycube");
         let effort = Effort { steps_per_level: 100, proof_nodes: 0, ..Effort::default() };
         let found = run(&polycube, &Options { effort, ..Options::default() });
@@ -113,7 +114,7 @@ const REACHED: [(&str, usize); 16] = [
 
 #[test]
 fn real_polycubes_get_as_coarse_as_asked() {
-    for (name, mesh) in data::models() {
+    for (name, mesh) in models() {
         let most = REACHED.iter().find(|(n, _)| *n == name).map_or(usize::MAX, |(_, most)| *most);
         let polycube = Polycube::new(&mesh, None, &Tolerance::default()).expect("the model is a polycube");
         let effort = Effort { steps_per_level: 100, ..Effort::default() };

@@ -8,7 +8,7 @@ use polycube::align::{Effort, Strategy};
 use polycube::generate::{perturb, random_polycube, random_with_corners, scale, symmetries, transform, translate};
 use polycube::layout::Objective;
 use polycube::mesh::{CellKind, Format, Mesh, write_bytes};
-use polycube::structure::Structure;
+use polycube::structure::{Structure, placement_of};
 use polycube::{Context, Input, Options, Simplified};
 use proptest::prelude::*;
 
@@ -31,7 +31,7 @@ fn assert_good(result: &Simplified, what: &str) {
     let after = report.after.unwrap_or_else(|| panic!("{what}: no counts"));
     assert!(after.blocks_padded <= report.before.blocks_padded, "{what}: {:?} became {after:?}", report.before);
     let mesh = result.polycube.as_ref().unwrap_or_else(|| panic!("{what}: no mesh"));
-    let placement: Vec<f64> = result.levels.iter().map(|&x| x as f64).collect();
+    let placement = placement_of(&result.levels);
     for (p, fixed) in mesh.points.iter().zip(result.input.prescribed(&placement)) {
         assert!((0..3).all(|a| p[a].is_finite() && fixed[a].is_none_or(|x| x == p[a])), "{what}: {p} is not {fixed:?}");
     }

@@ -44,7 +44,7 @@ fn check(result: &Simplified, guides: &Guides, what: &str) -> Result<(), TestCas
     prop_assert_eq!(dense::check(&input.structure, &result.levels), Ok(()), "{}", what);
     prop_assert!(report.after.is_some_and(|a| a.blocks_padded <= report.before.blocks_padded), "{what}");
     let at = facet_levels(result);
-    for &facet in guides.fixed.iter().filter(|_| guides.symmetry.is_empty()) {
+    for &facet in &guides.fixed {
         let wanted = (coordinate(input, facet) * report.scale).round() as i64;
         prop_assert_eq!(at[facet], wanted, "{}: fixed facet {}", what, facet);
     }
@@ -251,6 +251,48 @@ fn mirrored_polycubes_stay_mirrored() {
     }
     println!("{tried} tried, {better} better than the input");
     assert!(tried > 20 && better > 10);
+}
+
+/// At 0.75 steps per unit the plane x = 10 lies half way between lattice planes, and at 0.7 on one.
+#[test]
+fn fixed_facets_that_mirror_each_other_stay_or_are_refused() {
+    let (mut kept, mut refused) = (0, 0);
+    for seed in 0..cases(40) {
+        let Some(mesh) = mirrored(seed, 2 + seed as usize % 4) else { continue };
+        let polycube = read(&mesh);
+        let at = |f: usize| coordinate(&polycube, f);
+        let across: Vec<usize> = (0..polycube.structure.facets.len()).filter(|&f| axis_of(&polycube, f) == 0).collect();
+        let one = across[seed as usize % across.len()];
+        let image = across.iter().copied().find(|&f| (at(f) + at(one) - 20.0).abs() < 1e-9).expect("it is symmetric");
+        for fixed in [vec![one], vec![one, image], across.clone()] {
+            let guides = Guides { fixed, symmetry: vec![Symmetry { axis: 0, at: 10.0 }], ..Guides::default() };
+            for (strategy, scale) in [(0, 1.0), (0, 0.75), (1, 0.75), (1, 0.7), (2, 0.7), (2, 0.75)] {
+                let strategy = [Strategy::Paper, Strategy::Best, Strategy::Naive][strategy];
+                let asked = Options { scale: Some(scale), ..options(strategy, guides.clone()) };
+                let what = format!("seed {seed}, {strategy:?} at {scale}, {guides:?}");
+                match simplify(&mesh, &asked) {
+                    Ok(result) if strategy == Strategy::Naive => {
+                        let all =
+                            guides.fixed.iter().all(|&f| facet_levels(&result)[f] == (at(f) * scale).round() as i64);
+                        assert!(all, "{what}");
+                        check_mirror(&result, &guides.symmetry[0], &what).expect("it is mirrored");
+                    }
+                    Ok(result) => check(&result, &guides, &what).expect("the guides hold"),
+                    Err(error) => {
+                        assert_eq!(error.kind, ErrorKind::Infeasible, "{what}: {error}");
+                        assert!(!error.remedy.is_empty() && scale != 1.0, "{what}: {error}");
+                        let named =
+                            matches!(error.place, Some(Place::Facet(f)) if guides.fixed.contains(&(f as usize)));
+                        refused += usize::from(named);
+                        continue;
+                    }
+                }
+                kept += 1;
+            }
+        }
+    }
+    println!("{kept} kept, {refused} refused by the facet");
+    assert!(kept > 30 && refused > 3);
 }
 
 #[test]

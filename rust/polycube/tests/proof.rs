@@ -1,13 +1,16 @@
 //! The proof of the fewest blocks against plain enumeration, on polycubes small enough for both.
 
+mod common;
+
+use common::models::model;
+use common::read;
 use polycube::Context;
 use polycube::align::prove::{Proof, prove};
 use polycube::align::ranks::Ranks;
 use polycube::generate::{Cuboid, SplitMix64, Voxels, random_polycube};
 use polycube::layout::{Objective, Rows, count};
-use polycube::mesh::{CellKind, Mesh};
-use polycube::structure::{Arrangement, Polycube, Structure, Tolerance};
-use std::path::PathBuf;
+use polycube::mesh::CellKind;
+use polycube::structure::{Arrangement, Polycube, Structure};
 use std::time::Duration;
 
 const OBJECTIVES: [Objective; 3] = [Objective::BlocksPadded, Objective::Blocks, Objective::SurfacePatches];
@@ -68,10 +71,6 @@ fn brute_force(structure: &Structure, most: usize) -> Option<[usize; 3]> {
         }
     }
     Some(best)
-}
-
-fn read(mesh: &Mesh) -> Polycube {
-    Polycube::new(mesh, None, &Tolerance::default()).expect("a polycube")
 }
 
 /// The order of the levels when each moves by less than half the least distance, so that hardly two coincide.
@@ -171,18 +170,6 @@ fn a_cancelled_proof_is_an_error() {
     assert_eq!(result.unwrap_err().kind, polycube::ErrorKind::Cancelled);
 }
 
-fn data(name: &str) -> Option<Polycube> {
-    let folder = std::env::var_os("POLYCUBE_DATA")
-        .map_or_else(|| PathBuf::from(env!("CARGO_MANIFEST_DIR")).join("../../../shared/data"), PathBuf::from);
-    let file = folder.join(format!("{name}.polycube.obj"));
-    if !file.exists() {
-        assert!(std::env::var("POLYCUBE_REQUIRE_DATA").as_deref() != Ok("1"), "{} is missing", file.display());
-        println!("skipped: no data");
-        return None;
-    }
-    Some(read(&polycube::mesh::read(&file).expect("a readable mesh")))
-}
-
 #[test]
 fn published_polycubes_are_certified() {
     let known = [
@@ -194,7 +181,7 @@ fn published_polycubes_are_certified() {
         ("l12014-rod", [122, 32, 82]),
     ];
     for (name, optima) in known {
-        let Some(polycube) = data(name) else { continue };
+        let Some(polycube) = model(name).map(|mesh| read(&mesh)) else { continue };
         let from = Ranks::new(&polycube.structure, &polycube.placement);
         for (objective, optimum) in OBJECTIVES.into_iter().zip(optima) {
             let proof = run(&polycube.structure, objective, &from, 100_000);
@@ -206,7 +193,7 @@ fn published_polycubes_are_certified() {
 
 #[test]
 fn a_large_polycube_has_a_bound_at_once() {
-    let Some(polycube) = data("l12014-rockerarm_2") else { return };
+    let Some(polycube) = model("l12014-rockerarm_2").map(|mesh| read(&mesh)) else { return };
     let from = Ranks::new(&polycube.structure, &polycube.placement);
     let context = Context::default();
     let limit = Some(Duration::from_millis(500));

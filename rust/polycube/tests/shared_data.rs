@@ -2,13 +2,13 @@
 
 mod common;
 
-use common::data::{models, reference};
+use common::models::{models, reference};
 use common::{dense, labels, paper, read, simplify};
 use polycube::generate::{perturb, scale};
 use polycube::layout::{Counts, count};
 use polycube::map::morph;
 use polycube::mesh::Mesh;
-use polycube::structure::Arrangement;
+use polycube::structure::{Arrangement, placement_of};
 use polycube::{Context, Input, Options, Simplified};
 use serde_json::Value;
 
@@ -50,7 +50,7 @@ fn structure_and_counts_are_the_published_ones() {
 fn assert_valid(name: &str, result: &Simplified) -> Counts {
     let structure = &result.input.structure;
     assert_eq!(dense::check(structure, &result.levels), Ok(()), "{name}");
-    let placement: Vec<f64> = result.levels.iter().map(|&x| x as f64).collect();
+    let placement = placement_of(&result.levels);
     let arrangement = Arrangement::new(structure, &placement);
     assert!(arrangement.conflicts().is_empty() && arrangement.inside_out().is_empty(), "{name}");
     assert!(result.report.valid, "{name}");

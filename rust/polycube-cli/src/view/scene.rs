@@ -6,7 +6,7 @@ use polycube::align::{self, Round};
 use polycube::layout::Counts;
 use polycube::mesh::{Cells, Face, Mesh, Point, Simplices};
 use polycube::simplify::{Input, Options, Simplified, fit, simplify};
-use polycube::structure::{Arrangement, Edge, Polycube, Structure};
+use polycube::structure::{Arrangement, Polycube, placement_of};
 use polycube::{Context, Error, ErrorKind, Result};
 
 /// A step of the simplification.
@@ -100,9 +100,9 @@ impl Scene {
             let (structure, input) = (&polycube.structure, &polycube.placement);
             let levels =
                 align::rescale(structure, input, &round.levels, &settings, &context.stage("layouts", 0.0, 0.1))?;
-            steps.push((Some(round.clone()), round.counts, levels.iter().map(|&x| x as f64).collect()));
+            steps.push((Some(round.clone()), round.counts, placement_of(&levels)));
         }
-        steps.push((None, after, result.levels.iter().map(|&x| x as f64).collect()));
+        steps.push((None, after, placement_of(&result.levels)));
         let (mut last, total) = (None, steps.len());
         for (done, (round, counts, placement)) in steps.into_iter().enumerate() {
             context.tick(0.1 + 0.9 * done as f64 / total as f64)?;
@@ -125,24 +125,15 @@ fn layout(polycube: &Polycube, mesh: &Mesh, placement: &[f64], scale: f64) -> Re
 
 /// The boundary of a mesh as a mesh of its own, and which vertices it kept.
 fn surface_of(mesh: &Mesh) -> Result<(Mesh, Vec<u32>)> {
-    let faces = mesh.cells.boundary()?;
-    let mut number = vec![u32::MAX; mesh.points.len()];
-    faces.iter().flat_map(Face::vertices).for_each(|&v| number[v as usize] = 0);
-    let mut kept = Vec::new();
-    for (v, n) in (0..).zip(&mut number).filter(|(_, n)| **n == 0) {
-        *n = kept.len() as u32;
-        kept.push(v);
-    }
     let (mut triangles, mut quads) = (Vec::new(), Vec::new());
-    let of = |v: u32| number[v as usize];
-    for face in faces {
+    for face in mesh.cells.boundary()? {
         match face {
-            Face::Triangle(t) => triangles.push(t.map(of)),
-            Face::Quad(q) => quads.push(q.map(of)),
+            Face::Triangle(t) => triangles.push(t),
+            Face::Quad(q) => quads.push(q),
         }
     }
     let cells = if quads.is_empty() { Cells::Triangles(triangles) } else { Cells::Quads(quads) };
-    Ok((Mesh { points: kept.iter().map(|&v: &u32| mesh.points[v as usize]).collect(), cells }, kept))
+    Ok(Mesh::of_used(&mesh.points, cells))
 }
 
 /// The triangles of a surface and their facets.
@@ -155,13 +146,5 @@ fn triangles(cells: &Cells, polycube: &Polycube) -> (Vec<[u32; 3]>, Vec<u32>) {
 
 fn chains(polycube: &Polycube) -> Vec<Chain> {
     let edges = polycube.structure.edges.iter().zip(&polycube.chains);
-    edges.map(|(e, v)| Chain { vertices: v.clone(), convex: is_convex(&polycube.structure, e) }).collect()
-}
-
-/// Whether the facet on the left of an edge goes away from the side that the facet on its right looks at.
-fn is_convex(structure: &Structure, edge: &Edge) -> bool {
-    let [left, right] = edge.facets.map(|f| structure.facets[f as usize].label);
-    let cyclic = (left.axis() + 1) % 3 == edge.axis;
-    let extends = if cyclic { left.sign() } else { -left.sign() };
-    extends != right.sign()
+    edges.map(|(e, v)| Chain { vertices: v.clone(), convex: polycube.structure.is_convex(e) }).collect()
 }

@@ -1,4 +1,4 @@
-//! `polycube simplify --guides`, `--max-distortion` and `--pareto`.
+//! `--guides`, `--max-distortion` and `--pareto`.
 
 use super::{CellKind, Example, Sandbox, coarse};
 use polycube::mesh;
@@ -26,6 +26,31 @@ fn a_file_of_guides_is_respected() {
     let fixed = report["options"]["guides"]["fixed"].as_array().unwrap();
     assert!(fixed.len() > 1 && fixed.contains(&moved.into()), "{fixed:?}");
     assert!(fixed.iter().all(|f| !off(&kept[f.as_u64().unwrap() as usize])), "{kept:?}");
+}
+
+#[test]
+fn remesh_takes_guides_and_the_options_of_the_search() {
+    let sandbox = Sandbox::new();
+    sandbox.write_mesh("spikes.obj", &coarse(Example::CubeSpikes, CellKind::Quads));
+    let remesh = |options: &str| {
+        sandbox.ok(&format!(
+            "remesh spikes.obj --polycube spikes.obj -o out --surface-only --max-hausdorff 100 {options}"
+        ));
+        sandbox.json("out/report.json")
+    };
+    let free = remesh("");
+    sandbox.write("guides.json", "{\"fixed_labels\": [0, 1, 2, 3, 4, 5]}");
+    let kept = remesh("--guides guides.json");
+    assert_eq!(kept["before"], kept["after"], "nothing moves");
+    assert_ne!(free["after"], kept["after"]);
+    assert!(kept["options"]["guides"]["fixed"].as_array().is_some_and(|f| f.len() > 20), "{kept}");
+    let options = "--steps 7 --proof-nodes 3 --time-limit 50 --lambda-min 0.5 --solver linear";
+    let used = remesh(options)["options"].clone();
+    assert_eq!((&used["effort"]["steps_per_level"], &used["effort"]["proof_nodes"]), (&7.into(), &3.into()));
+    assert_eq!((&used["lambda_min"], &used["solver"]), (&0.5.into(), &"linear".into()));
+    sandbox.write("guides.json", "{\"fixed\": [999]}");
+    let line = "remesh spikes.obj --polycube spikes.obj -o other --guides guides.json";
+    sandbox.fails(line, 2, &["facet 999", "from 0 to"]);
 }
 
 #[test]

@@ -2,6 +2,8 @@
 #![allow(clippy::unwrap_used, reason = "tests fail by panicking")]
 
 mod compare;
+#[path = "../../../polycube/tests/common/data.rs"]
+mod data;
 mod demo;
 mod failures;
 mod guides;
@@ -17,7 +19,7 @@ use polycube::generate::Example;
 use polycube::mesh::CellKind;
 use polycube::mesh::{self, Mesh, Point};
 use serde_json::Value;
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 use std::process::{Command, Output};
 use tempfile::TempDir;
 
@@ -137,16 +139,4 @@ pub fn coarse(example: Example, kind: CellKind) -> Mesh {
 pub fn bent(polycube: &Mesh) -> Mesh {
     let bend = |p: &Point| Point::new(p.x + 0.004 * p.y * p.z, p.y + 0.003 * p.x * p.x, 1.2 * p.z);
     Mesh { points: polycube.points.iter().map(bend).collect(), cells: polycube.cells.clone() }
-}
-
-/// The folder of real polycubes; nothing, with a word on standard error, where there is none and none is required.
-pub fn data() -> Option<PathBuf> {
-    let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../../shared/data");
-    let folder = std::env::var_os("POLYCUBE_DATA").map_or(root, PathBuf::from);
-    if folder.is_dir() {
-        return Some(folder);
-    }
-    assert!(std::env::var_os("POLYCUBE_REQUIRE_DATA").is_none_or(|v| v != "1"), "no data in {}", folder.display());
-    eprintln!("skipped: no data");
-    None
 }

@@ -4,7 +4,7 @@ use super::Sandbox;
 
 #[test]
 fn the_bunny_becomes_coarser() {
-    let Some(data) = super::data() else { return };
+    let Some(data) = super::data::folder() else { return };
     let data = data.canonicalize().unwrap();
     let sandbox = Sandbox::new();
     let mut command = sandbox.command("simplify -o out");

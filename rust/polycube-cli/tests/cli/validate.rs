@@ -108,6 +108,21 @@ fn shape_and_polycube_that_do_not_match() {
 }
 
 #[test]
+fn a_broken_shape_is_named_and_not_its_polycube() {
+    let sandbox = Sandbox::new();
+    sandbox.write_mesh("p.obj", &cube(2, CellKind::Quads));
+    for (name, text) in [("bad", "v 0 0 0\nv 1 0 0\nv 0 1 zero\n"), ("nan", "v 0 0 nan\nv 1 0 0\nv 0 1 0\nf 1 2 3\n")] {
+        sandbox.write(&format!("{name}.obj"), text);
+        let line = format!("p.obj --shape {name}.obj");
+        assert_eq!(check(&sandbox, &line)["violations"][0]["mesh"], "shape");
+        let out = sandbox.run(&format!("validate {line}")).out;
+        assert!(out.starts_with(&format!("{name}.obj: 1 violation")) && !out.contains("p.obj"), "{out}");
+        let out = sandbox.run(&format!("validate {name}.obj --shape p.obj")).out;
+        assert!(out.starts_with(&format!("{name}.obj: 1 violation")) && !out.contains("p.obj"), "{out}");
+    }
+}
+
+#[test]
 fn surfaces_that_are_not_closed_oriented_manifolds() {
     let mut open = cube(2, CellKind::Quads);
     quads(&mut open).pop();

@@ -42,6 +42,7 @@ _Kind = Literal["triangles", "quads", "tetrahedra", "hexahedra"]
 _Strategy = Literal["best", "paper", "naive"]
 _Objective = Literal["blocks_padded", "blocks", "surface_patches"]
 _Solver = Literal["exact", "linear"]
+# Stage and fraction done. What it returns is not looked at; what it raises stops the work and is raised by the call.
 _Progress = Callable[[str, float], object]
 _Fields = dict[str, npt.ArrayLike]
 _T_co = TypeVar("_T_co", covariant=True)
@@ -175,6 +176,9 @@ class Simplified:
     def report(self) -> dict[str, Any]: ...
     def at(
         self, simplicity: float, *, progress: _Progress | None = None, cancel: _Flag | None = None
+    ) -> Simplified: ...
+    def rescaled(
+        self, scale: float, *, progress: _Progress | None = None, cancel: _Flag | None = None
     ) -> Simplified: ...
 
 @final

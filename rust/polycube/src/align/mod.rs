@@ -26,7 +26,7 @@ pub use search::Effort;
 use crate::context::Context;
 use crate::error::{Error, ErrorKind, Result};
 use crate::layout::{Counts, count};
-use crate::structure::{Arrangement, Conflict, Placement, Structure};
+use crate::structure::{Arrangement, Conflict, Placement, Structure, placement_of};
 use guides::{Guided, guided_start, is_valid};
 use judge::Judge;
 use place::place_in_order;
@@ -115,7 +115,7 @@ fn counts_before(structure: &Structure, input: &[f64]) -> Result<Counts> {
 
 /// Whether levels are a valid polycube by the exact check.
 fn check(structure: &Structure, levels: &[i64]) -> Result<()> {
-    let placement: Placement = levels.iter().map(|&x| x as f64).collect();
+    let placement = placement_of(levels);
     if is_valid(&Arrangement::new(structure, &placement)) {
         return Ok(());
     }
@@ -220,7 +220,7 @@ pub fn rescale(
     if options.strategy == Strategy::Naive {
         return guided.rounded(structure, &targets);
     }
-    let order: Placement = levels.iter().map(|&x| x as f64).collect();
+    let order = placement_of(levels);
     place_in_order(structure, &Ranks::new(structure, &order), &targets, &guided)
 }
 
@@ -239,7 +239,7 @@ fn scaled(input: &[f64], scale: f64) -> Result<Placement> {
 
 fn naive(task: &Task) -> Result<Alignment> {
     let levels = task.guided.rounded(task.structure, &task.targets)?;
-    let placement: Placement = levels.iter().map(|&x| x as f64).collect();
+    let placement = placement_of(&levels);
     let arrangement = Arrangement::new(task.structure, &placement);
     let broken = arrangement.conflicts();
     let after = broken.is_empty().then(|| count(&arrangement));

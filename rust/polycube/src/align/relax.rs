@@ -9,7 +9,7 @@ use super::separate::{holds, separations};
 use super::solve::Solver;
 use crate::context::Context;
 use crate::error::{Error, ErrorKind, Result};
-use crate::structure::{Arrangement, Placement, Structure};
+use crate::structure::{Arrangement, Placement, Structure, placement_of};
 
 /// What one round asks for: where the levels want to be, which pairs attract, what must hold.
 pub struct Demand<'a> {
@@ -47,7 +47,7 @@ pub fn relax(
         let levels = solver.solve(&problem, Some(&begin), context)?.levels;
         let at = |l: u32| levels[variables.of_level[l as usize] as usize];
         start = (0..structure.levels.len() as u32).map(at).collect();
-        let placement: Placement = start.iter().map(|&x| x as f64).collect();
+        let placement = placement_of(&start);
         let mut knows_valid = |ranks: &Ranks| judge.get_or_insert_with(|| Judge::new(structure)).knows_valid(ranks);
         if placement == valid || knows_valid(&Ranks::new(structure, &placement)) {
             return Ok(placement);

@@ -1,6 +1,5 @@
 //! What tests ask of a mesh, worked out independently of how it was made.
 
-use super::mesh::compact;
 use crate::mesh::{Cells, Mesh};
 use nalgebra::Vector3;
 use std::collections::{BTreeMap, BTreeSet};
@@ -51,7 +50,7 @@ pub fn boundary(mesh: &Mesh) -> Mesh {
         Cells::Hexahedra(cells) => Cells::Quads(open(cells, HEX_FACES)),
         _ => return mesh.clone(),
     };
-    compact(&mesh.points, cells)
+    Mesh::of_used(&mesh.points, cells).0
 }
 
 /// The faces that belong to one cell only; a face of two must be seen from both sides.

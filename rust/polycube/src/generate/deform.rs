@@ -148,8 +148,8 @@ fn twist(point: Point, center: [f64; 3], axis: usize, rate: f64) -> Point {
 
 #[cfg(test)]
 mod tests {
-    use super::super::rng::SplitMix64;
     use super::*;
+    use crate::rng::SplitMix64;
     use nalgebra::{Matrix3, Vector3};
 
     /// By central differences.

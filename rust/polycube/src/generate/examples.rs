@@ -1,12 +1,12 @@
 //! Named polycubes for demonstrations, each with an organic shape it could have come from.
 
 use super::deform::Deformation;
-use super::mesh::{Lattice, compact};
-use super::rng::SplitMix64;
+use super::mesh::Lattice;
 use super::soften::Body;
 use super::voxels::{Cuboid, Voxels};
 use crate::error::{Error, ErrorKind, Result};
 use crate::mesh::{CellKind, Mesh, Point};
+use crate::rng::SplitMix64;
 use std::fmt;
 use std::str::FromStr;
 
@@ -108,7 +108,7 @@ pub fn example(example: Example, seed: u64, kind: CellKind) -> Result<(Mesh, Mes
     // The volume is smoothed for surfaces, too: all kinds show one shape.
     let soft = Body::new(&voxels, &lattice).soften(&deformed, SOFTENING);
     let cells = lattice.cells(kind);
-    Ok((compact(&points, cells.clone()), compact(&soft, cells)))
+    Ok((Mesh::of_used(&points, cells.clone()).0, Mesh::of_used(&soft, cells).0))
 }
 
 /// Random shifts of 1 to 3 units to either side; none for seed 0.

@@ -1,8 +1,8 @@
 //! Moves the levels of a polycube's facets, off the lattice if need be.
 
-use super::rng::SplitMix64;
 use crate::error::{Error, ErrorKind, Place, Result};
 use crate::mesh::Mesh;
+use crate::rng::SplitMix64;
 
 /// Moves every facet of a surface along its axis by `offset(facet)`; each facet stays flat.
 ///

@@ -2,13 +2,11 @@
 
 use super::voxels::Voxels;
 use crate::error::{Error, ErrorKind, Result};
+use crate::mesh::hexahedron::OCTANTS;
 use crate::mesh::{CellKind, Cells, Mesh, Point};
 
 /// The octants at the corners of each face (−X +X −Y +Y −Z +Z), counter-clockwise from outside.
 const FACES: [[usize; 4]; 6] = [[0, 4, 6, 2], [1, 3, 7, 5], [0, 1, 5, 4], [2, 6, 7, 3], [0, 2, 3, 1], [4, 5, 7, 6]];
-
-/// The octants at the corners of a hexahedron in VTK's order.
-pub(super) const HEXAHEDRON: [usize; 8] = [0, 1, 3, 2, 4, 5, 7, 6];
 
 /// Five tetrahedra of a cell whose octant 0 is even; its diagonals join even octants (0, 3, 5, 6).
 /// An odd cell is its mirror image along X.
@@ -61,7 +59,7 @@ impl<'a> Lattice<'a> {
 
     pub(super) fn hexahedra(&self) -> Vec<[u32; 8]> {
         let cells = self.voxels.cells().map(|cell| self.octants(cell));
-        cells.map(|o| HEXAHEDRON.map(|i| o[i])).collect()
+        cells.map(|o| OCTANTS.map(|i| o[i])).collect()
     }
 
     pub(super) fn tetrahedra(&self) -> Vec<[u32; 4]> {
@@ -106,35 +104,6 @@ impl<'a> Lattice<'a> {
     }
 }
 
-/// The mesh of the vertices in use, in the order of `points`.
-pub(super) fn compact(points: &[Point], cells: Cells) -> Mesh {
-    let mut number = vec![u32::MAX; points.len()];
-    for i in 0..cells.len() {
-        cells.cell(i).iter().for_each(|v| number[*v as usize] = 0);
-    }
-    let mut kept = Vec::new();
-    for (number, point) in number.iter_mut().zip(points) {
-        if *number == 0 {
-            *number = kept.len() as u32;
-            kept.push(*point);
-        }
-    }
-    let cells = map_vertices(cells, |v| number[v as usize]);
-    Mesh { points: kept, cells }
-}
-
-fn map_vertices(cells: Cells, new: impl Fn(u32) -> u32) -> Cells {
-    fn each<const N: usize>(cells: Vec<[u32; N]>, new: impl Fn(u32) -> u32) -> Vec<[u32; N]> {
-        cells.into_iter().map(|c| c.map(&new)).collect()
-    }
-    match cells {
-        Cells::Triangles(c) => Cells::Triangles(each(c, new)),
-        Cells::Quads(c) => Cells::Quads(each(c, new)),
-        Cells::Tetrahedra(c) => Cells::Tetrahedra(each(c, new)),
-        Cells::Hexahedra(c) => Cells::Hexahedra(each(c, new)),
-    }
-}
-
 impl Voxels {
     /// The mesh of the solid cells, each cut evenly into parts no longer than `step` on any axis.
     /// Coordinates stay integers where `step` divides the distances between the planes.
@@ -154,7 +123,7 @@ impl Voxels {
             return Err(Error::new(ErrorKind::Mesh, "no cell of the polycube is solid"));
         }
         let points: Vec<Point> = (0..lattice.len()).map(|v| lattice.point(v)).collect();
-        Ok(compact(&points, cells))
+        Ok(Mesh::of_used(&points, cells).0)
     }
 }
 

@@ -11,7 +11,6 @@ mod levels;
 mod manifold;
 mod mesh;
 mod random;
-mod rng;
 mod soften;
 mod symmetry;
 mod voxels;
@@ -19,10 +18,10 @@ mod voxels;
 #[cfg(test)]
 mod check;
 
+pub use crate::rng::SplitMix64;
 pub use deform::Deformation;
 pub use examples::{Example, cube_spikes, double_torus, example, ring, stepped_l};
 pub use levels::{move_levels, perturb};
 pub use random::{random_polycube, random_with_corners};
-pub use rng::SplitMix64;
 pub use symmetry::{scale, symmetries, transform, translate};
 pub use voxels::{Cuboid, Voxels};

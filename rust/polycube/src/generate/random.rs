@@ -1,8 +1,8 @@
 //! Random polycubes from a seed.
 
-use super::rng::SplitMix64;
 use super::voxels::{Cuboid, Voxels};
 use crate::error::{Error, ErrorKind, Result};
+use crate::rng::SplitMix64;
 
 /// Sides of the boxes that [`random_with_corners`] joins.
 const SIDES: [i64; 2] = [2, 9];

@@ -3,6 +3,7 @@
 use super::complex::Complex;
 use super::lattice::Lattice;
 use super::separatrices::Separatrices;
+use crate::mesh::hexahedron::OCTANTS;
 use crate::structure::Label;
 
 /// A block: the lattice cells between two lattice vertices, in ranks (see [`Lattice::rank`]).
@@ -29,7 +30,7 @@ impl Block {
     /// The eight corners in VTK's order of a hexahedron's vertices.
     pub fn corners(&self) -> [[usize; 3]; 8] {
         let ends = [self.low, self.high];
-        [0, 1, 3, 2, 4, 5, 7, 6].map(|c: usize| std::array::from_fn(|a| ends[c >> a & 1][a]))
+        OCTANTS.map(|o| std::array::from_fn(|a| ends[o >> a & 1][a]))
     }
 }
 

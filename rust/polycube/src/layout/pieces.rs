@@ -135,6 +135,7 @@ mod tests {
     use crate::mesh::CellKind;
     use crate::remesh::Remesher;
     use crate::simplify::{Input, Options, simplify};
+    use crate::structure::placement_of;
     use std::collections::BTreeSet;
 
     /// On a mesh of unit squares every patch has faces, and the numbers are those of the lattice meshes.
@@ -146,7 +147,7 @@ mod tests {
             let options = Options { strategy: crate::align::Strategy::Naive, ..Options::default() };
             let result = simplify(&input, &options, &Context::default()).unwrap();
             let polycube = result.polycube.as_ref().unwrap();
-            let levels: Vec<f64> = result.levels.iter().map(|&x| x as f64).collect();
+            let levels = placement_of(&result.levels);
             let pieces = Pieces::of_faces(&result.input, &polycube.points, &levels);
             let counts = count(&Arrangement::new(&result.input.structure, &levels));
             let found: BTreeSet<u32> = pieces.patch_of_face.iter().copied().collect();

@@ -65,7 +65,7 @@ fn cotangents(p: [Point; 3]) -> [f64; 3] {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::map::testing::Random;
+    use crate::generate::SplitMix64;
     use proptest::prelude::*;
 
     fn weights(points: &[Point], triangles: &[[u32; 3]]) -> Rows {
@@ -107,7 +107,7 @@ mod tests {
         /// In a planar fan, obtuse triangles and negative weights included, linear functions are harmonic.
         #[test]
         fn linear_functions_are_harmonic(seed in any::<u64>(), spokes in 4_u32..9) {
-            let mut random = Random(seed);
+            let mut random = SplitMix64::new(seed);
             let mut points = vec![Point::origin()];
             for k in 0..spokes {
                 let turn = std::f64::consts::TAU * (f64::from(k) + 0.6 * random.unit()) / f64::from(spokes);

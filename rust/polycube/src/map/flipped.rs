@@ -2,12 +2,9 @@
 
 use super::check::check_mesh;
 use crate::error::{Error, ErrorKind, Place, Result};
+use crate::mesh::hexahedron::corner_tetrahedra;
 use crate::mesh::{Cells, Face, Mesh, Point};
 use nalgebra::Vector3;
-
-/// For each corner of a hexahedron its three neighbours, right-handed in a good one.
-const CORNERS: [[usize; 3]; 8] =
-    [[1, 3, 4], [2, 0, 5], [3, 1, 6], [0, 2, 7], [7, 5, 0], [4, 6, 1], [5, 7, 2], [6, 4, 3]];
 
 /// The elements turned over or flat, ascending.
 #[derive(Clone, Debug, Default, PartialEq, Eq, serde::Serialize)]
@@ -66,17 +63,14 @@ fn check_labels(labels: &[i8], faces: usize) -> Result<()> {
 }
 
 fn cell_flipped(mesh: &Mesh, i: usize) -> bool {
-    let determinant = |a: u32, [b, c, d]: [u32; 3]| {
-        let [a, b, c, d] = [a, b, c, d].map(|v| mesh.points[v as usize]);
-        (b - a).cross(&(c - a)).dot(&(d - a))
+    let is_bad = |tet: &[u32; 4]| {
+        let [a, b, c, d] = tet.map(|v| mesh.points[v as usize]);
+        (b - a).cross(&(c - a)).dot(&(d - a)) <= 0.0
     };
     match &mesh.cells {
         Cells::Triangles(_) | Cells::Quads(_) => false,
-        Cells::Tetrahedra(c) => determinant(c[i][0], [c[i][1], c[i][2], c[i][3]]) <= 0.0,
-        Cells::Hexahedra(c) => {
-            let corner = |(k, ends): (usize, &[usize; 3])| determinant(c[i][k], ends.map(|e| c[i][e]));
-            CORNERS.iter().enumerate().map(corner).any(|d| d <= 0.0)
-        }
+        Cells::Tetrahedra(c) => is_bad(&c[i]),
+        Cells::Hexahedra(c) => corner_tetrahedra(&c[i]).iter().any(is_bad),
     }
 }
 

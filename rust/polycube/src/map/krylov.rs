@@ -193,12 +193,12 @@ fn worst<const N: usize>(found: &Values<N>, size: &Values<N>) -> f64 {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::map::testing::Random;
+    use crate::generate::SplitMix64;
     use nalgebra::{DMatrix, DVector};
     use proptest::prelude::*;
 
     /// An unsymmetric M-matrix on a ring with random chords, grounded at every seventh row.
-    fn matrix(n: u32, random: &mut Random) -> Rows {
+    fn matrix(n: u32, random: &mut SplitMix64) -> Rows {
         let mut a = Rows::new();
         for i in 0..n {
             let ends = [(i + 1) % n, (i + n - 1) % n, (random.unit() * f64::from(n)) as u32];
@@ -213,7 +213,7 @@ mod tests {
     proptest! {
         #[test]
         fn agrees_with_a_dense_solver(seed in any::<u64>(), n in 8_u32..60) {
-            let mut random = Random(seed);
+            let mut random = SplitMix64::new(seed);
             let a = matrix(n, &mut random);
             let n = n as usize;
             let b: Vec<_> = (0..n).map(|_| [random.unit(), 0.0, random.unit() - 0.5]).collect();

@@ -103,7 +103,8 @@ fn opposite(v: u32, tetrahedron: &[u32; 4]) -> [u32; 3] {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::map::testing::{Random, jittered, tet_box};
+    use crate::generate::SplitMix64;
+    use crate::map::testing::{jittered, tet_box};
     use crate::mesh::{Cells, Mesh};
     use proptest::prelude::*;
 
@@ -149,7 +150,7 @@ mod tests {
         #[test]
         fn linear_functions_are_reproduced(seed in any::<u64>()) {
             let (mesh, inner) = star(seed);
-            let mut random = Random(!seed);
+            let mut random = SplitMix64::new(!seed);
             let slope = [0, 1, 2].map(|_| random.unit() - 0.5);
             let f = |p: &Point| 3.0 + slope[0] * p.x + slope[1] * p.y + slope[2] * p.z;
             let row: Vec<_> = rows(&mesh, &inner).row(13).collect();

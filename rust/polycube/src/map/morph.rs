@@ -6,7 +6,7 @@ use super::harmonic::extend_harmonic;
 use super::mean_value::mean_value_weights;
 use crate::context::Context;
 use crate::error::{Error, ErrorKind, Place, Result};
-use crate::mesh::{Face, Mesh, Point, Simplices, split_quad};
+use crate::mesh::{Face, Mesh, Point, Simplices};
 
 /// Moves the vertices of a polycube onto prescribed coordinates, the others with them, smoothly.
 ///
@@ -113,14 +113,7 @@ fn hold(known: &mut [[bool; 3]], held: &[bool]) {
 
 /// The boundary as triangles.
 fn surface(mesh: &Mesh) -> Result<Vec<[u32; 3]>> {
-    let mut triangles = Vec::new();
-    for face in mesh.cells.boundary()? {
-        match face {
-            Face::Triangle(t) => triangles.push(t),
-            Face::Quad(q) => triangles.extend(split_quad(q)),
-        }
-    }
-    Ok(triangles)
+    Ok(mesh.cells.boundary()?.iter().flat_map(Face::triangles).collect())
 }
 
 /// Whether the arguments can be used at all.

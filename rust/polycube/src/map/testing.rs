@@ -1,21 +1,7 @@
-//! Small meshes, and a reader for the big ones, for the tests of this crate.
+//! Small meshes, and the big ones, for the tests of this crate.
 
-use crate::mesh::{Cells, Face, Mesh, Point, Simplices};
-use std::path::PathBuf;
-
-/// SplitMix64.
-pub(crate) struct Random(pub(crate) u64);
-
-impl Random {
-    /// The next number in 0..1.
-    pub(crate) fn unit(&mut self) -> f64 {
-        self.0 = self.0.wrapping_add(0x9e37_79b9_7f4a_7c15);
-        let mut z = self.0;
-        z = (z ^ (z >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
-        z = (z ^ (z >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
-        ((z ^ (z >> 31)) >> 11) as f64 / (1_u64 << 53) as f64
-    }
-}
+use crate::generate::SplitMix64;
+use crate::mesh::{Cells, Face, Mesh, Point, Simplices, read};
 
 /// A box of unit cubes with a corner in the origin; vertex (x, y, z) has number x + (nx+1)(y + (ny+1) z).
 pub(crate) fn hex_box(n: [u32; 3]) -> Mesh {
@@ -63,7 +49,7 @@ pub(crate) fn tri_box(n: [u32; 3]) -> Mesh {
 
 /// The mesh with its vertices numbered at random.
 pub(crate) fn shuffled(mesh: &Mesh, seed: u64) -> Mesh {
-    let mut random = Random(seed);
+    let mut random = SplitMix64::new(seed);
     let mut order: Vec<(f64, usize)> = (0..mesh.points.len()).map(|v| (random.unit(), v)).collect();
     order.sort_by(|a, b| a.0.total_cmp(&b.0));
     let mut rank = vec![0; order.len()];
@@ -79,7 +65,7 @@ pub(crate) fn shuffled(mesh: &Mesh, seed: u64) -> Mesh {
 
 /// The box with every coordinate that is free of the box's sides moved by up to `amount`.
 pub(crate) fn jittered(mesh: &Mesh, amount: f64, seed: u64) -> Mesh {
-    let mut random = Random(seed);
+    let mut random = SplitMix64::new(seed);
     let sides = levels(mesh);
     let mut mesh = mesh.clone();
     for (p, side) in mesh.points.iter_mut().zip(sides) {
@@ -126,47 +112,11 @@ pub(crate) fn uneven(axis: usize, x: f64) -> f64 {
     x + 0.4 * (x * 1.7 + axis as f64).sin()
 }
 
-/// Every tetrahedral polycube of the test data with its name; none where there is no data, unless
-/// `POLYCUBE_REQUIRE_DATA=1`.
+/// Every tetrahedral polycube of the test data with its name; none where there is no data.
 pub(crate) fn real_polycubes() -> Vec<(String, Mesh)> {
-    let beside = PathBuf::from(env!("CARGO_MANIFEST_DIR")).join("../../../shared/data");
-    let folder = std::env::var_os("POLYCUBE_DATA").map_or(beside, PathBuf::from);
-    let Ok(entries) = std::fs::read_dir(&folder) else {
-        let required = std::env::var("POLYCUBE_REQUIRE_DATA").is_ok_and(|v| v == "1");
-        assert!(!required, "no data in {}", folder.display());
-        println!("skipped: no data");
-        return Vec::new();
-    };
-    let mut paths: Vec<_> = entries.map(|e| e.unwrap().path()).collect();
-    paths.retain(|p| p.to_string_lossy().ends_with(".polycube.mesh"));
-    paths.sort();
-    let name = |p: &PathBuf| p.file_name().unwrap().to_string_lossy().into_owned();
-    paths.iter().map(|p| (name(p), read_medit(&std::fs::read_to_string(p).unwrap()))).collect()
-}
-
-/// Reads the vertices and tetrahedra of a MEDIT text.
-fn read_medit(text: &str) -> Mesh {
-    let (mut points, mut tetrahedra) = (Vec::new(), Vec::new());
-    let mut words = text.split_ascii_whitespace();
-    while let Some(word) = words.next() {
-        let mut count = || words.next().unwrap().parse::<usize>().unwrap();
-        match word {
-            "Vertices" => {
-                for _ in 0..count() {
-                    let mut next = || words.next().unwrap().parse::<f64>().unwrap();
-                    points.push(Point::new(next(), next(), next()));
-                    words.next();
-                }
-            }
-            "Tetrahedra" => {
-                for _ in 0..count() {
-                    let mut next = || words.next().unwrap().parse::<u32>().unwrap() - 1;
-                    tetrahedra.push([next(), next(), next(), next()]);
-                    words.next();
-                }
-            }
-            _ => {}
-        }
-    }
-    Mesh { points, cells: Cells::Tetrahedra(tetrahedra) }
+    let files = crate::data::folder().into_iter().flat_map(|folder| std::fs::read_dir(folder).unwrap());
+    let named = files.map(|file| (file.as_ref().unwrap().file_name().into_string().unwrap(), file.unwrap().path()));
+    let mut found: Vec<_> = named.filter(|(name, _)| name.ends_with(".polycube.mesh")).collect();
+    found.sort();
+    found.into_iter().map(|(name, path)| (name, read(&path).unwrap())).collect()
 }

@@ -3,6 +3,8 @@
 //! Reading is safe on any input: a malformed file gives an [`Error`] that says where it is wrong,
 //! and never a panic, an endless loop, or memory out of proportion to the size of the file.
 
+mod compact;
+pub(crate) mod hexahedron;
 mod io;
 mod simplices;
 mod stars;
@@ -11,7 +13,6 @@ pub use io::{
     CellField, FieldValues, Format, parse_labels, read, read_bytes, read_labels, read_pair, write, write_atomically,
     write_bytes, write_labels,
 };
-pub(crate) use simplices::split_quad;
 pub use simplices::{Face, Simplices};
 pub(crate) use stars::Stars;
 

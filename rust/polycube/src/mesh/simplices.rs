@@ -4,16 +4,12 @@
 //! that share it cut it alike (Dompierre, Labbé, Vallet, Camarero: "How to subdivide pyramids,
 //! prisms and hexahedra into tetrahedra", 1999).
 
-use super::Cells;
+use super::{Cells, hexahedron};
 use crate::error::{Error, ErrorKind, Place, Result};
 use std::borrow::Cow;
 
 /// Local faces of a tetrahedron in VTK's order, counter-clockwise seen from outside.
 const TETRAHEDRON_FACES: [[usize; 3]; 4] = [[0, 1, 3], [1, 2, 3], [2, 0, 3], [0, 2, 1]];
-
-/// Local faces of a hexahedron in VTK's order, counter-clockwise seen from outside.
-const HEXAHEDRON_FACES: [[usize; 4]; 6] =
-    [[0, 4, 7, 3], [1, 2, 6, 5], [0, 1, 5, 4], [3, 7, 6, 2], [0, 3, 2, 1], [4, 5, 6, 7]];
 
 /// The simplices of a mesh: borrowed where its cells are simplices already, made where they are not.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -40,6 +36,18 @@ impl Face {
             Self::Triangle(v) => v,
             Self::Quad(v) => v,
         }
+    }
+
+    /// Its one or two triangles, cut as in [`Cells::simplices`].
+    pub(crate) fn triangles(&self) -> impl Iterator<Item = [u32; 3]> + use<> {
+        let (first, second) = match *self {
+            Self::Triangle(t) => (t, None),
+            Self::Quad(q) => {
+                let [first, second] = split_quad(q);
+                (first, Some(second))
+            }
+        };
+        std::iter::once(first).chain(second)
     }
 }
 
@@ -71,13 +79,13 @@ impl Cells {
             Self::Triangles(c) => c.iter().copied().map(Face::Triangle).collect(),
             Self::Quads(c) => c.iter().copied().map(Face::Quad).collect(),
             Self::Tetrahedra(c) => outer(c, &TETRAHEDRON_FACES, Face::Triangle)?,
-            Self::Hexahedra(c) => outer(c, &HEXAHEDRON_FACES, Face::Quad)?,
+            Self::Hexahedra(c) => outer(c, &hexahedron::FACES, Face::Quad)?,
         })
     }
 }
 
 /// The two triangles of a quadrilateral, cut through its smallest vertex index.
-pub(crate) fn split_quad(quad: [u32; 4]) -> [[u32; 3]; 2] {
+fn split_quad(quad: [u32; 4]) -> [[u32; 3]; 2] {
     let m = smallest(&quad);
     let at = |k: usize| quad[(m + k) % 4];
     [[at(0), at(1), at(2)], [at(0), at(2), at(3)]]
@@ -87,7 +95,7 @@ pub(crate) fn split_quad(quad: [u32; 4]) -> [[u32; 3]; 2] {
 /// diagonals of its own three faces, as the rule of [`split_quad`] wants.
 fn split_hex(hex: &[u32; 8]) -> impl Iterator<Item = [u32; 4]> {
     let m = smallest(hex);
-    HEXAHEDRON_FACES
+    hexahedron::FACES
         .iter()
         .filter(move |face| !face.contains(&m))
         .flat_map(|face| split_quad(face.map(|k| hex[k])))
@@ -213,10 +221,7 @@ mod tests {
             let cells = Cells::Tetrahedra(split);
             let mut split: Vec<_> = cells.boundary().unwrap().iter()
                 .map(|f| key([f.vertices()[0], f.vertices()[1], f.vertices()[2]])).collect();
-            let mut quads: Vec<_> = mesh.cells.boundary().unwrap().iter().flat_map(|f| match f {
-                Face::Quad(q) => split_quad(*q).map(key),
-                Face::Triangle(_) => panic!("not a quadrilateral"),
-            }).collect();
+            let mut quads: Vec<_> = mesh.cells.boundary().unwrap().iter().flat_map(Face::triangles).map(key).collect();
             split.sort_unstable();
             quads.sort_unstable();
             prop_assert_eq!(split, quads);

@@ -1,8 +1,9 @@
 //! The corner tetrahedra whose shapes are optimised, each with the shape it should have.
 
-use super::quality::{HEX_CORNERS, edges};
+use super::quality::edges;
 use crate::error::{Error, ErrorKind, Place, Result};
 use crate::mesh::Point;
+use crate::mesh::hexahedron::{CORNERS, EDGES, corner_tetrahedra};
 use nalgebra::{Matrix3, Vector3};
 use rayon::prelude::*;
 
@@ -65,10 +66,6 @@ const LEAST_SHARE: usize = 4096;
 
 /// A rest shape with a lower mean ratio than this is no example to follow.
 const WORST_REST: f64 = 0.02;
-
-/// The twelve edges of a hexahedron in VTK's order, in three sets of four parallel ones.
-const PARALLEL: [[[usize; 2]; 4]; 3] =
-    [[[0, 1], [3, 2], [4, 5], [7, 6]], [[0, 3], [1, 2], [4, 7], [5, 6]], [[0, 4], [1, 5], [2, 6], [3, 7]]];
 
 impl Elements {
     /// Tetrahedra that should look as in `rest`, each with its rest volume as weight (Garanzha et al. 2021).
@@ -230,15 +227,15 @@ fn rest_shape(edges: &Matrix3<f64>) -> Matrix3<f64> {
 }
 
 fn corners(hexes: &[[u32; 8]]) -> Vec<[u32; 4]> {
-    hexes.iter().flat_map(|hex| HEX_CORNERS.map(|c| c.map(|i| hex[i]))).collect()
+    hexes.iter().flat_map(corner_tetrahedra).collect()
 }
 
 /// The reference edges of the eight corners of a box: each corner's three edges in its own order.
 fn corner_shapes(size: &[f64; 3]) -> [Matrix3<f64>; 8] {
-    HEX_CORNERS.map(|[from, to @ ..]| {
+    CORNERS.map(|[from, to @ ..]| {
         let along = |to: usize| {
             let pair = |e: &[usize; 2]| *e == [from, to] || *e == [to, from];
-            PARALLEL.iter().position(|set| set.iter().any(pair)).unwrap_or(0)
+            EDGES.iter().position(|set| set.iter().any(pair)).unwrap_or(0)
         };
         Matrix3::from_diagonal(&Vector3::from(to.map(|to| size[along(to)])))
     })
@@ -267,7 +264,7 @@ fn box_sizes(hexes: &[[u32; 8]], points: &[Point], smoothing: usize) -> Vec<[f64
 /// The edges of each set of four parallel ones, three sets a hexahedron; and the length of each edge.
 fn number_edges(hexes: &[[u32; 8]], points: &[Point]) -> (Vec<[u32; 4]>, Vec<f64>) {
     let key = |hex: &[u32; 8], [a, b]: [usize; 2]| (hex[a].min(hex[b]), hex[a].max(hex[b]));
-    let keys = hexes.iter().flat_map(|hex| PARALLEL.iter().map(move |set| set.map(|e| key(hex, e))));
+    let keys = hexes.iter().flat_map(|hex| EDGES.iter().map(move |set| set.map(|e| key(hex, e))));
     let mut sorted: Vec<(u32, u32)> = keys.clone().flatten().collect();
     sorted.par_sort_unstable();
     sorted.dedup();

@@ -36,7 +36,6 @@ pub use elements::{Elements, Measure};
 pub use freedom::Freedom;
 pub use guide::{Contact, CurveGuide, Guide, SurfaceGuide, Tangent};
 pub(crate) use nearest::Nearest;
-pub(crate) use quality::HEX_CORNERS;
 pub use quality::{
     BARS, Statistics, cell_qualities, hexahedron_volume, quadrilateral_scaled_jacobian, scaled_jacobian,
     scaled_jacobians, statistics, tetrahedron_scaled_jacobian, tetrahedron_volume,

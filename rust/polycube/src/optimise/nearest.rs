@@ -102,7 +102,7 @@ fn in_triangle(a: Point, b: Point, c: Point, point: &Point) -> [f64; 3] {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::generate::SplitMix64;
+    use crate::rng::SplitMix64;
 
     #[test]
     fn nearest_point_of_a_triangle_beats_all_samples() {

@@ -1,15 +1,9 @@
 //! How good hexahedra, tetrahedra and quadrilaterals are: scaled Jacobians, volumes and their statistics.
 
 use crate::error::{Error, ErrorKind, Result};
+use crate::mesh::hexahedron::{FACES, corner_tetrahedra};
 use crate::mesh::{Cells, Mesh, Point};
 use nalgebra::Matrix3;
-
-/// Each corner of a hexahedron in VTK's order with its three neighbours, in a right-handed order.
-pub(crate) const HEX_CORNERS: [[usize; 4]; 8] =
-    [[0, 1, 3, 4], [1, 2, 0, 5], [2, 3, 1, 6], [3, 0, 2, 7], [4, 7, 5, 0], [5, 4, 6, 1], [6, 5, 7, 2], [7, 6, 4, 3]];
-
-/// Faces of a hexahedron, counter-clockwise seen from outside.
-const HEX_FACES: [[usize; 4]; 6] = [[0, 4, 7, 3], [1, 2, 6, 5], [0, 1, 5, 4], [3, 7, 6, 2], [0, 3, 2, 1], [4, 5, 6, 7]];
 
 /// The edges from the first vertex of `corner` to the others, as columns.
 pub(super) fn edges(points: &[Point], corner: [u32; 4]) -> Matrix3<f64> {
@@ -32,8 +26,8 @@ pub(super) fn corner_jacobian(edges: &Matrix3<f64>) -> f64 {
 /// # Panics
 /// When a vertex is not among `points`.
 pub fn scaled_jacobian(points: &[Point], hex: &[u32; 8]) -> f64 {
-    let corner = |c: &[usize; 4]| corner_jacobian(&edges(points, c.map(|i| hex[i])));
-    HEX_CORNERS.iter().map(corner).fold(1.0, f64::min)
+    let quality = |corner: [u32; 4]| corner_jacobian(&edges(points, corner));
+    corner_tetrahedra(hex).into_iter().map(quality).fold(1.0, f64::min)
 }
 
 /// Verdict's scaled Jacobian of a tetrahedron, in −1..1: `√2 det / λ`, where `λ` is the largest product
@@ -75,7 +69,7 @@ pub fn hexahedron_volume(points: &[Point], hex: &[u32; 8]) -> f64 {
     let cone = |a: usize, b: usize, c: usize| -> f64 { at[a].dot(&at[b].cross(&at[c])) };
     // The volume under a bilinear face is the mean of those under its two triangulations.
     let face = |[a, b, c, d]: [usize; 4]| -> f64 { cone(a, b, c) + cone(a, c, d) + cone(a, b, d) + cone(b, c, d) };
-    HEX_FACES.into_iter().map(face).sum::<f64>() / 12.0
+    FACES.into_iter().map(face).sum::<f64>() / 12.0
 }
 
 /// The volume of a tetrahedron (cubed unit of the points), negative if inside out.

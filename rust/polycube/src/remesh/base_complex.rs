@@ -1,8 +1,8 @@
 //! The base complex of any hexahedral mesh, from its cells alone.
 
 use crate::error::{Error, ErrorKind, Place, Result};
+use crate::mesh::hexahedron::FACES;
 
-const FACES: [[usize; 4]; 6] = [[0, 4, 7, 3], [1, 2, 6, 5], [0, 1, 5, 4], [3, 7, 6, 2], [0, 3, 2, 1], [4, 5, 6, 7]];
 const NONE: u32 = u32::MAX;
 
 /// The block of the base complex that each hexahedron belongs to, numbered from 0 by their first hexahedra.

@@ -6,7 +6,7 @@ use super::interior::interpolate;
 use super::keys::{Keys, rank};
 use super::padding::Padding;
 use super::pipeline::RemeshOptions;
-use super::report::cells_of;
+use super::report::{cells_of, worst};
 use super::spacing::{spaced, tamed};
 use super::start::is_flexible;
 use super::warp::{Warp, on_levels};
@@ -126,11 +126,6 @@ impl Rung {
         hexes.mesh.points = points;
         Ok(())
     }
-}
-
-/// The worst scaled Jacobian of a mesh.
-fn worst(hexes: &Hexes) -> f64 {
-    cells_of(hexes).iter().map(|c| scaled_jacobian(&hexes.mesh.points, c)).fold(1.0, f64::min)
 }
 
 /// The mean scaled Jacobian of a mesh.

@@ -4,10 +4,8 @@ use super::keys::{Keys, rank, ranks, too_fine};
 use super::site::Site;
 use crate::error::{Error, ErrorKind, Result};
 use crate::layout::{Block, Complex, Lattice, Patch, Separatrices};
-use crate::structure::{Arrangement, Label, Structure};
-
-/// The octants of a cell in VTK's order of a hexahedron's vertices.
-const VTK: [usize; 8] = [0, 1, 3, 2, 4, 5, 7, 6];
+use crate::mesh::hexahedron::OCTANTS;
+use crate::structure::{Arrangement, Label, Structure, placement_of};
 
 /// A unit square of the surface.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -54,7 +52,7 @@ impl Grid {
     /// # Errors
     /// [`ErrorKind::Option`] when the lattice is finer than 32-bit indices can count.
     pub(super) fn new(structure: &Structure, levels: &[i64]) -> Result<Self> {
-        let placement: Vec<f64> = levels.iter().map(|&x| x as f64).collect();
+        let placement = placement_of(levels);
         let arrangement = Arrangement::new(structure, &placement);
         let lattice = Lattice::new(&arrangement);
         let complex = Complex::new(&lattice, &arrangement);
@@ -88,7 +86,7 @@ impl Grid {
 
     /// The vertices of a cell by octant: bit `a` is set on its upper side along axis `a`.
     pub(super) fn octants(&self, cell: usize) -> [u32; 8] {
-        VTK.map(|k| self.hexes[cell][k])
+        OCTANTS.map(|k| self.hexes[cell][k])
     }
 
     /// The label of the first surface square of each cell, −1 for inner cells.
@@ -178,7 +176,7 @@ fn unit_cells(keys: &Keys, blocks: &[[[i64; 3]; 2]]) -> (Vec<u64>, Vec<u32>) {
 
 fn hexes(cells: &[u64], vertices: &[u64]) -> Result<Vec<[u32; 8]>> {
     let mut hexes = vec![[0; 8]; cells.len()];
-    for (k, c) in VTK.into_iter().enumerate() {
+    for (k, c) in OCTANTS.into_iter().enumerate() {
         let found = ranks(vertices, cells.iter().map(|cell| cell + Keys::octant(c))).ok_or_else(torn)?;
         hexes.iter_mut().zip(found).for_each(|(hex, v)| hex[k] = v);
     }

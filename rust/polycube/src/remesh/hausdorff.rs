@@ -2,7 +2,7 @@
 
 use crate::context::Context;
 use crate::error::{Error, ErrorKind, Result};
-use crate::mesh::{Face, Mesh, Point, split_quad};
+use crate::mesh::{Face, Mesh, Point};
 use crate::optimise::Nearest;
 use rayon::prelude::*;
 
@@ -106,7 +106,7 @@ pub(super) fn triangles(mesh: &Mesh, face: &Face) -> Vec<[Point; 3]> {
         Face::Quad(q) => {
             let p = q.map(at);
             if (p[1] - p[0]).cross(&(p[3] - p[0])).dot(&(p[2] - p[0])) == 0.0 {
-                return split_quad(q).map(|t| t.map(at)).to_vec();
+                return face.triangles().map(|t| t.map(at)).collect();
             }
             let centre = Point::from((p[0].coords + p[1].coords + p[2].coords + p[3].coords) / 4.0);
             (0..4).map(|k| [p[k], p[(k + 1) % 4], centre]).collect()

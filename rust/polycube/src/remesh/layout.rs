@@ -5,8 +5,8 @@ use super::grid::Rectangle;
 use super::keys::rank;
 use super::padding::Padding;
 use crate::error::{Error, ErrorKind, Result};
+use crate::mesh::hexahedron::OCTANTS;
 use crate::mesh::{CellField, Cells, Mesh, Point};
-use crate::structure::Structure;
 
 /// A line of edges at which an irregular number of blocks meet.
 #[derive(Clone, Debug, PartialEq)]
@@ -56,8 +56,8 @@ impl Remesher<'_> {
         let blocks = numbers.blocks()?;
         let patches = numbers.patches()?;
         Ok(Layout {
-            blocks: compact(points, blocks, Cells::Hexahedra),
-            patches: compact(points, patches, Cells::Quads),
+            blocks: Mesh::of_used(points, Cells::Hexahedra(blocks)).0,
+            patches: Mesh::of_used(points, Cells::Quads(patches)).0,
             patch_label: self.grid.patches.iter().map(|p| p.label.index() as i8).collect(),
             singular: numbers.singular(points)?,
         })
@@ -90,7 +90,7 @@ impl Numbers<'_, '_> {
         let mut blocks = Vec::new();
         for &[low, high] in &grid.blocks {
             let mut hex = [0; 8];
-            for (corner, octant) in hex.iter_mut().zip([0, 1, 3, 2, 4, 5, 7, 6]) {
+            for (corner, octant) in hex.iter_mut().zip(OCTANTS) {
                 let at = std::array::from_fn(|a| if octant >> a & 1 == 1 { high[a] } else { low[a] });
                 *corner = self.vertex(at, 0)?;
             }
@@ -113,7 +113,7 @@ impl Numbers<'_, '_> {
         let mut singular = Vec::new();
         for edge in 0..structure.edges.len() {
             let vertices = self.chain(edge)?;
-            let valence = if is_convex(structure, edge) { 1 } else { 3 } + 2 * layers;
+            let valence = if structure.is_convex(&structure.edges[edge]) { 1 } else { 3 } + 2 * layers;
             singular.push(SingularEdge { points: at(points, &vertices), valence });
         }
         if self.padding > 0 {
@@ -157,27 +157,4 @@ impl Numbers<'_, '_> {
 
 fn at(points: &[Point], vertices: &[u32]) -> Vec<Point> {
     vertices.iter().map(|&v| points[v as usize]).collect()
-}
-
-/// Whether the facet on the left of an edge goes away from the side that the facet on its right looks at.
-fn is_convex(structure: &Structure, edge: usize) -> bool {
-    let edge = &structure.edges[edge];
-    let [left, right] = edge.facets.map(|f| structure.facets[f as usize].label);
-    // The left facet extends along `normal × direction` of the edge.
-    let cyclic = (left.axis() + 1) % 3 == edge.axis;
-    let extends = if cyclic { left.sign() } else { -left.sign() };
-    extends != right.sign()
-}
-
-/// A mesh over the points that its cells use, in the order of those points.
-fn compact<const K: usize>(points: &[Point], mut cells: Vec<[u32; K]>, make: fn(Vec<[u32; K]>) -> Cells) -> Mesh {
-    let mut number = vec![u32::MAX; points.len()];
-    cells.as_flattened().iter().for_each(|&v| number[v as usize] = 0);
-    let mut kept = Vec::new();
-    for (point, number) in points.iter().zip(&mut number).filter(|(_, n)| **n == 0) {
-        *number = kept.len() as u32;
-        kept.push(*point);
-    }
-    cells.as_flattened_mut().iter_mut().for_each(|v| *v = number[*v as usize]);
-    Mesh { points: kept, cells: make(cells) }
 }

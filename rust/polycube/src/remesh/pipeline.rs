@@ -29,7 +29,8 @@ pub struct RemeshOptions {
     pub padding: usize,
     /// Leave the hexahedra out.
     pub surface_only: bool,
-    /// The largest Hausdorff distance to accept, as a part of the bounding box's diagonal; 0.005 by default.
+    /// The largest Hausdorff distance to accept, as a **fraction** of the bounding box's diagonal; 0.005 by default, half a
+    /// percent. (The command and Python take percent.)
     pub max_hausdorff: f64,
     /// How hard the hexahedra are optimised; `scope` is not looked at, both ways are tried.
     pub optimise: Settings,
@@ -74,6 +75,23 @@ pub struct Remeshed {
 /// is given all the same and the report says so. Without a shape the polycube itself is meshed.
 ///
 /// The result is the same for any number of threads.
+///
+/// ```
+/// use polycube::generate::{Example, example};
+/// use polycube::mesh::CellKind;
+/// use polycube::remesh::{RemeshOptions, Size, remesh};
+/// use polycube::{Context, Input};
+///
+/// let (cube, shape) = example(Example::SteppedL, 1, CellKind::Quads)?;
+/// let input = Input { polycube: &cube, shape: Some(&shape), labels: None };
+/// let options = RemeshOptions { size: Some(Size::Hexes(400)), ..RemeshOptions::default() };
+/// let meshes = remesh(&input, &options, &Context::default())?;
+///
+/// let hexes = meshes.hexes.expect("`surface_only` alone leaves them out");
+/// assert_eq!(hexes.mesh.cells.len(), meshes.scaled_jacobian.len());
+/// assert_eq!(meshes.report.inverted, 0);
+/// # Ok::<(), polycube::Error>(())
+/// ```
 ///
 /// # Errors
 /// Those of [`simplify()`], [`scale_for`](super::scale_for()), [`Remesher`] and [`optimise`](crate::optimise::optimise()); [`ErrorKind::Option`] for a bound on the

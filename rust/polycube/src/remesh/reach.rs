@@ -2,7 +2,7 @@
 
 use super::gaps::{Gap, gaps};
 use super::improve::{Job, POOR};
-use super::report::cells_of;
+use super::report::{self, cells_of};
 use crate::context::Context;
 use crate::error::Result;
 use crate::mesh::{Point, Stars};
@@ -65,7 +65,7 @@ impl Job<'_> {
         settings: &Settings,
         context: &Context,
     ) -> Result<f64> {
-        let mut worst = self.worst();
+        let mut worst = report::worst(self.hexes);
         if worst <= 0.0 {
             return Ok(f64::INFINITY);
         }
@@ -86,7 +86,7 @@ impl Job<'_> {
             self.resize()?;
             self.run(&held, settings, &context.stage("reach", from, to))?;
             let left = self.gaps(samples, bound, context)?;
-            let reached = self.worst();
+            let reached = report::worst(self.hexes);
             let enough = bound + LEFT * (farthest - bound);
             if left.first().is_none_or(|g| g.distance < enough) && reached > POOR.min(KEPT * worst) {
                 worst = worst.max(reached);
@@ -154,10 +154,5 @@ impl Job<'_> {
     fn worst_of(&self, cells: &[u32]) -> f64 {
         let all = cells_of(self.hexes);
         cells.iter().map(|&c| scaled_jacobian(&self.hexes.mesh.points, &all[c as usize])).fold(1.0, f64::min)
-    }
-
-    fn worst(&self) -> f64 {
-        let quality = |c| scaled_jacobian(&self.hexes.mesh.points, c);
-        cells_of(self.hexes).iter().map(quality).fold(1.0, f64::min)
     }
 }

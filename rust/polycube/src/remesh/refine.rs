@@ -1,7 +1,7 @@
 //! Splits triangles of the surface where the map could not be one to one otherwise.
 
 use crate::error::{Error, ErrorKind, Result};
-use crate::mesh::{Cells, Face, Mesh, Point, split_quad};
+use crate::mesh::{Cells, Face, Mesh, Point};
 use crate::structure::{Polycube, Surface};
 use std::collections::BTreeMap;
 
@@ -22,18 +22,13 @@ impl Refined {
         let mut triangles = Vec::new();
         let mut facets = Vec::new();
         for (face, &facet) in polycube.surface.faces().iter().zip(&polycube.facet_of_face) {
-            match *face {
-                Face::Triangle(t) => triangles.push(t),
-                Face::Quad(q) => triangles.extend(split_quad(q)),
-            }
+            triangles.extend(face.triangles());
             facets.resize(triangles.len(), facet);
         }
         polycube.facet_of_face = facets;
         let mut refined = Self { polycube, points: points.to_vec(), shape: shape.to_vec(), triangles };
         let border: Vec<bool> = refined.polycube.vertex_levels.iter().map(|l| known(l) > 1).collect();
-        let chains = refined.polycube.chains.iter().flat_map(|c| c.windows(2).map(|s| key(s[0], s[1])));
-        let mut along: Vec<[u32; 2]> = chains.collect();
-        along.sort_unstable();
+        let along = refined.along();
         let crossing = |e: &[u32; 2]| e.iter().all(|&v| border[v as usize]) && along.binary_search(e).is_err();
         refined.split(|_, e| crossing(&e))?;
         Ok(refined)
@@ -43,10 +38,16 @@ impl Refined {
     pub(super) fn split_facets_of(&mut self, triangles: &[usize]) -> Result<()> {
         let mut marked = vec![false; self.polycube.structure.facets.len()];
         triangles.iter().for_each(|&t| marked[self.polycube.facet_of_face[t] as usize] = true);
+        let along = self.along();
+        self.split(|facet, e| marked[facet as usize] && along.binary_search(&e).is_err())
+    }
+
+    /// The mesh edges along the edges of the polycube, sorted.
+    fn along(&self) -> Vec<[u32; 2]> {
         let chains = self.polycube.chains.iter().flat_map(|c| c.windows(2).map(|s| key(s[0], s[1])));
         let mut along: Vec<[u32; 2]> = chains.collect();
         along.sort_unstable();
-        self.split(|facet, e| marked[facet as usize] && along.binary_search(&e).is_err())
+        along
     }
 
     /// The surface as a mesh on the lattice and on the shape.

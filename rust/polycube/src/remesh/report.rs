@@ -5,7 +5,7 @@ use super::{Hexes, base_complex, hausdorff};
 use crate::context::Context;
 use crate::error::Result;
 use crate::mesh::{Cells, Mesh};
-use crate::optimise::{BARS, cell_qualities, statistics};
+use crate::optimise::{BARS, cell_qualities, scaled_jacobian, statistics};
 use crate::simplify::{self, Simplified};
 
 /// More cells than this are not advised.
@@ -90,6 +90,11 @@ pub struct Stages {
     pub measure: f64,
     /// All of it, without files.
     pub total: f64,
+}
+
+/// The worst scaled Jacobian of a mesh; 1 without hexahedra.
+pub(super) fn worst(hexes: &Hexes) -> f64 {
+    cells_of(hexes).iter().map(|c| scaled_jacobian(&hexes.mesh.points, c)).fold(1.0, f64::min)
 }
 
 /// The hexahedra of a mesh.

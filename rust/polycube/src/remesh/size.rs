@@ -5,7 +5,7 @@ use crate::context::Context;
 use crate::error::{Error, ErrorKind, Result};
 use crate::mesh::Point;
 use crate::simplify::{Input, Simplified};
-use crate::structure::{Arrangement, Structure, area_vector};
+use crate::structure::{Arrangement, Structure, area_vector, placement_of};
 
 /// How fine a mesh shall be.
 #[derive(Clone, Copy, Debug, PartialEq, serde::Serialize)]
@@ -55,7 +55,7 @@ pub fn scale_for(input: &Input, simplified: &Simplified, size: Size, padding: us
 
 /// How many hexahedra the lattice has with `padding` layers, when the levels of a valid polycube lie at `levels`.
 pub fn count_hexes(structure: &Structure, levels: &[i64], padding: usize) -> u64 {
-    let placement: Vec<f64> = levels.iter().map(|&x| x as f64).collect();
+    let placement = placement_of(levels);
     let arrangement = Arrangement::new(structure, &placement);
     let (volume, surface) = volume_and_surface(&arrangement);
     (volume + padding as f64 * surface) as u64

@@ -3,7 +3,7 @@
 use super::site::Site;
 use crate::context::Context;
 use crate::error::Result;
-use crate::mesh::{Face, Point, split_quad};
+use crate::mesh::Point;
 use crate::optimise::{CurveGuide, Freedom, Guide, SurfaceGuide, Tangent};
 use crate::structure::{Polycube, Structure};
 
@@ -34,10 +34,7 @@ impl Slides {
     pub(super) fn new(polycube: &Polycube, shape: &[Point], context: &Context) -> Result<Self> {
         let mut triangles = vec![Vec::new(); polycube.structure.facets.len()];
         for (face, &facet) in polycube.surface.faces().iter().zip(&polycube.facet_of_face) {
-            match *face {
-                Face::Triangle(t) => triangles[facet as usize].push(t),
-                Face::Quad(q) => triangles[facet as usize].extend(split_quad(q)),
-            }
+            triangles[facet as usize].extend(face.triangles());
         }
         let segments = |chain: &Vec<u32>| -> Vec<[u32; 2]> { chain.windows(2).map(|s| [s[0], s[1]]).collect() };
         let all: Vec<[u32; 3]> = triangles.concat();

@@ -3,7 +3,7 @@
 use super::barycentric::{Barycentric, in_triangle};
 use super::locate::{Boxes, Found, bounds};
 use super::site::Site;
-use crate::mesh::{Face, Point, split_quad};
+use crate::mesh::Point;
 use crate::structure::{Label, Polycube};
 use nalgebra::Vector3;
 
@@ -25,10 +25,7 @@ impl<'a> SurfaceMap<'a> {
         let mut of_facet = vec![Vec::new(); polycube.structure.facets.len()];
         for (face, &facet) in polycube.surface.faces().iter().zip(&polycube.facet_of_face) {
             let first = map.triangles.len() as u32;
-            match *face {
-                Face::Triangle(t) => map.triangles.push(t),
-                Face::Quad(q) => map.triangles.extend(split_quad(q)),
-            }
+            map.triangles.extend(face.triangles());
             of_facet[facet as usize].extend(first..map.triangles.len() as u32);
         }
         let index = |(facet, own): (usize, Vec<u32>)| {

@@ -1,7 +1,8 @@
 //! Meshes as tetrahedra, to be untangled.
 
+use crate::mesh::hexahedron::corner_tetrahedra;
 use crate::mesh::{Cells, Face, Mesh, Point};
-use crate::optimise::{Freedom, HEX_CORNERS, tetrahedron_volume};
+use crate::optimise::{Freedom, tetrahedron_volume};
 use crate::structure::{Label, Polycube, area_vector};
 use nalgebra::Vector3;
 
@@ -22,9 +23,7 @@ impl Corners {
         let mut corners = Self::held(polycube, &mesh.points, shape);
         match &mesh.cells {
             Cells::Tetrahedra(cells) => corners.tetrahedra.clone_from(cells),
-            Cells::Hexahedra(cells) => {
-                corners.tetrahedra = cells.iter().flat_map(|h| HEX_CORNERS.map(|c| c.map(|i| h[i]))).collect();
-            }
+            Cells::Hexahedra(cells) => corners.tetrahedra = cells.iter().flat_map(corner_tetrahedra).collect(),
             Cells::Triangles(_) | Cells::Quads(_) => corners.lift(polycube),
         }
         corners

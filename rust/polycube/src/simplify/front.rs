@@ -5,7 +5,7 @@ use crate::align::{self, Alignment, Strategy, TradeOff};
 use crate::context::Context;
 use crate::error::{Error, ErrorKind, Result};
 use crate::layout::{Counts, count};
-use crate::structure::{Arrangement, Placement};
+use crate::structure::{Arrangement, placement_of};
 use std::time::Instant;
 
 /// A point of the front on the lattice, before any mesh is moved.
@@ -26,6 +26,22 @@ impl Simplified {
     /// searched; it takes the time of placing the levels and of the morph. `input` must be what was simplified.
     ///
     /// It is what [`simplify`](super::simplify) would give with this simplicity and no limits on displacement and distortion.
+    ///
+    /// ```
+    /// use polycube::generate::{Example, example};
+    /// use polycube::mesh::CellKind;
+    /// use polycube::simplify::simplify;
+    /// use polycube::{Context, Input, Options};
+    ///
+    /// let (cube, shape) = example(Example::CubeSpikes, 1, CellKind::Quads)?;
+    /// let input = Input { polycube: &cube, shape: Some(&shape), labels: None };
+    /// let coarse = simplify(&input, &Options::default(), &Context::default())?;
+    /// let near = coarse.at(&input, 0.0, &Context::default())?;
+    ///
+    /// assert_eq!((coarse.report.chosen, near.report.chosen), (Some(0), Some(near.report.front.len() - 1)));
+    /// assert!(near.report.after.unwrap().surface_patches > coarse.report.after.unwrap().surface_patches);
+    /// # Ok::<(), polycube::Error>(())
+    /// ```
     ///
     /// # Errors
     /// [`ErrorKind::Option`] for a simplicity out of range, or if there is no front (only [`Strategy::Best`] finds one);
@@ -113,7 +129,7 @@ impl Simplified {
         let (structure, placement) = (&polycube.structure, &polycube.placement);
         let settings = self.settings();
         let levels = align::place(structure, placement, report.before, &report.front[index], &settings, context)?;
-        let at: Placement = levels.iter().map(|&x| x as f64).collect();
+        let at = placement_of(&levels);
         let counts = count(&Arrangement::new(structure, &at));
         let max_displacement = max_displacement(polycube, &levels, report.scale);
         Ok(Located { index, levels, counts, max_displacement })

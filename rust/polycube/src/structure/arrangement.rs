@@ -248,10 +248,8 @@ impl<'a> Arrangement<'a> {
         let label = self.structure.facets[tile.facet as usize].label;
         let Some(side) = edge.facets.iter().position(|&f| f == tile.facet) else { return false };
         let across = 3 - label.axis() - edge.axis;
-        // The facet is left of an upward edge if it is the edge's first; left is `normal × direction`.
-        let cyclic = (label.axis() + 1) % 3 == edge.axis;
-        let left = if cyclic { label.sign() } else { -label.sign() };
-        let upward = (left > 0) == (side == 0);
+        // The facet is left of an upward edge if it is the edge's first.
+        let upward = (label.left(edge.axis) > 0) == (side == 0);
         let levels = &tile.levels;
         let at = |l: u32| self.placement[l as usize];
         let line = at(self.structure.edge_box(edge).low[across]);

@@ -111,7 +111,7 @@ fn split(items: &mut [Item], offset: usize, nodes: &mut Vec<Node>) {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::generate::SplitMix64;
+    use crate::rng::SplitMix64;
 
     fn random(rng: &mut SplitMix64) -> ([f64; 3], [f64; 3]) {
         let low = [0; 3].map(|_: i32| rng.below(20) as f64);

@@ -43,6 +43,12 @@ impl Label {
         if self.0.is_multiple_of(2) { 1 } else { -1 }
     }
 
+    /// Whether left is up (+1) or down (−1) its axis, seen from outside when walking up `axis` on a face of this label.
+    pub(crate) fn left(self, axis: usize) -> i8 {
+        // Left is `normal × direction`.
+        if (self.axis() + 1) % 3 == axis { self.sign() } else { -self.sign() }
+    }
+
     /// The label that looks the other way.
     #[must_use]
     pub fn opposite(self) -> Self {

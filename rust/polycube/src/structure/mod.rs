@@ -23,6 +23,11 @@ pub use violation::Violation;
 /// The coordinate of every level, in the order of [`Structure::levels`].
 pub type Placement = Vec<f64>;
 
+/// The placement that has the levels at integers, as alignment leaves them. Exact up to 2⁵³.
+pub fn placement_of(levels: &[i64]) -> Placement {
+    levels.iter().map(|&x| x as f64).collect()
+}
+
 /// The coordinate that a connected set of facets shares: one unknown of the alignment.
 ///
 /// Two facets of one axis that touch at a corner have one level, so collinearity of edges
@@ -106,6 +111,12 @@ impl Structure {
     /// The levels at the lower and at the higher end of an edge, along its axis.
     pub fn ends(&self, edge: &Edge) -> [u32; 2] {
         edge.corners.map(|c| self.corners[c as usize].levels[edge.axis])
+    }
+
+    /// Whether the facet on the left of an edge goes away from the side that the facet on its right looks at.
+    pub fn is_convex(&self, edge: &Edge) -> bool {
+        let [left, right] = edge.facets.map(|f| self.facets[f as usize].label);
+        left.left(edge.axis) != right.sign()
     }
 
     /// The levels of the box that an edge fills: a range along its axis, one level along the other two.

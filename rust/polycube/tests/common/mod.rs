@@ -4,6 +4,7 @@
 pub mod data;
 pub mod dense;
 pub mod hexes;
+pub mod models;
 
 use polycube::generate::Voxels;
 use polycube::mesh::{CellKind, Mesh};

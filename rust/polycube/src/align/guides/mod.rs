@@ -1,6 +1,7 @@
 //! What the user wants to stay: facets that must not move, that must or must not align, and planes of symmetry.
 
 mod mirror;
+mod reflect;
 mod resolved;
 mod start;
 
@@ -14,11 +15,32 @@ use crate::structure::Polycube;
 /// `structure.json` number them. By default nothing.
 ///
 /// Every strategy respects all of it, or says with an error why it cannot.
+///
+/// ```
+/// use polycube::generate::{Example, example};
+/// use polycube::align::{Guides, Symmetry};
+/// use polycube::mesh::CellKind;
+/// use polycube::simplify::simplify;
+/// use polycube::{Context, Input, Options};
+///
+/// // Seed 0: every part of the example is where symmetry has it.
+/// let (cube, shape) = example(Example::CubeSpikes, 0, CellKind::Quads)?;
+/// let input = Input { polycube: &cube, shape: Some(&shape), labels: None };
+/// let mut guides = Guides { symmetry: vec![Symmetry { axis: 0, at: 0.0 }], ..Guides::default() };
+/// let plain = simplify(&input, &Options::default(), &Context::default())?;
+/// // The facet that holds the first boundary face must not move: what a host has as a selection.
+/// guides.fix_faces(&plain.input, &[0]);
+///
+/// let guided = simplify(&input, &Options { guides, ..Options::default() }, &Context::default())?;
+/// assert!(guided.report.valid);
+/// # Ok::<(), polycube::Error>(())
+/// ```
 #[derive(Clone, Debug, Default, PartialEq, serde::Serialize, serde::Deserialize)]
 #[serde(default, deny_unknown_fields)]
 pub struct Guides {
     /// Facets that must not move: the plane of each lies where the input has it, times the scale, rounded to the lattice. All
-    /// other facets find their places around them.
+    /// other facets find their places around them. Two that mirror each other about a plane of [`Guides::symmetry`] are an error
+    /// ([`ErrorKind::Infeasible`](crate::ErrorKind::Infeasible)) where rounding leaves no such plane on the lattice.
     pub fixed: Vec<usize>,
     /// Groups of facets of one axis that must lie in one plane.
     pub together: Vec<Vec<usize>>,

@@ -1,6 +1,7 @@
 //! Guides turned into conditions on the levels of one structure.
 
 use super::mirror::images;
+use super::reflect::Mirror;
 use super::{Guides, Symmetry};
 use crate::align::classes::Classes;
 use crate::align::place::{Plane, chain};
@@ -8,9 +9,6 @@ use crate::align::problem::Difference;
 use crate::align::ranks::Ranks;
 use crate::error::{Error, ErrorKind, Place, Result};
 use crate::structure::{Placement, Structure};
-
-/// Levels of one axis closer than this part of the whole size are one plane when mirrored positions are averaged.
-const SAME: f64 = 1e-9;
 
 /// What guides ask of the levels of a structure at one scale.
 pub struct Guided {
@@ -36,14 +34,6 @@ fn partners(classes: &Classes, levels: usize) -> Vec<Vec<u32>> {
     (0..levels as u32).map(others).collect()
 }
 
-/// A plane of symmetry across an axis.
-pub struct Mirror {
-    /// The image of each level; those of other axes have themselves.
-    pub image: Vec<u32>,
-    /// Where the plane cuts the axis, in lattice steps.
-    at: f64,
-}
-
 impl Guided {
     /// No guides.
     pub fn free(structure: &Structure) -> Self {
@@ -63,7 +53,7 @@ impl Guided {
     ///
     /// # Errors
     /// [`ErrorKind::Option`] for a facet that does not exist, for facets of different axes, and where guides contradict each
-    /// other or the edges of the polycube.
+    /// other or the edges of the polycube. [`ErrorKind::Infeasible`] where facets that mirror each other do not once they are rounded.
     pub fn new(structure: &Structure, input: &[f64], guides: &Guides, scale: f64) -> Result<Self> {
         let mut guided = Self { any: !guides.is_empty(), ..Self::free(structure) };
         guides.together.iter().try_for_each(|group| guided.join(structure, group))?;
@@ -79,6 +69,7 @@ impl Guided {
         guided.check_edges(structure)?;
         guided.check_fixed(structure)?;
         guided.partners = partners(&guided.classes, structure.levels.len());
+        guided.hold_mirrors(structure)?;
         Ok(guided)
     }
 
@@ -192,19 +183,9 @@ impl Guided {
     pub fn rounded(&self, structure: &Structure, targets: &[f64]) -> Result<Vec<i64>> {
         let averaged = self.averaged(structure, targets);
         let mut levels: Vec<i64> = averaged.iter().map(|x| x.round() as i64).collect();
-        self.fixed().for_each(|(level, at)| levels[level as usize] = at);
-        for l in 0..levels.len() {
-            let pinned = self.partners[l].iter().find(|&&m| self.fixed[m as usize].is_some());
-            levels[l] = pinned.map_or(levels[l], |&m| levels[m as usize]);
-        }
+        (0..).zip(&mut levels).for_each(|(l, x)| *x = self.held(l).unwrap_or(*x));
         for mirror in self.mirrors.iter().flatten() {
-            let doubled = (2.0 * mirror.at).round() as i64;
-            for l in 0..levels.len() {
-                let image = mirror.image[l] as usize;
-                if l < image {
-                    levels[image] = doubled - levels[l];
-                }
-            }
+            mirror.reflect(&mut levels, |l| self.held(l).is_some());
         }
         match self.apart.iter().find(|[a, b]| levels[*a as usize] == levels[*b as usize]) {
             None => Ok(levels),
@@ -214,6 +195,12 @@ impl Guided {
                     .remedy("use a larger scale or another strategy"))
             }
         }
+    }
+
+    /// Where a level must lie because it, or one that must be equal to it, is fixed.
+    fn held(&self, level: u32) -> Option<i64> {
+        let own = std::iter::once(&level).chain(&self.partners[level as usize]);
+        own.filter_map(|&l| self.fixed[l as usize]).next()
     }
 
     fn join(&mut self, structure: &Structure, group: &[usize]) -> Result<()> {
@@ -239,7 +226,7 @@ impl Guided {
                 Err(Error::new(ErrorKind::Option, message).remedy("give one plane for an axis"))
             }
             _ => {
-                self.mirrors[plane.axis] = Some(Mirror { image, at: plane.at * scale });
+                self.mirrors[plane.axis] = Some(Mirror::new(image, plane.at * scale));
                 Ok(())
             }
         }
@@ -315,42 +302,23 @@ impl Guided {
         }
         Ok(())
     }
-}
 
-impl Mirror {
-    /// Twice the coordinate of the plane on the lattice: on a lattice plane if one of an odd number of planes lies in it.
-    fn doubled(&self, planes: usize) -> i64 {
-        if planes % 2 == 1 { 2 * self.at.round() as i64 } else { (2.0 * self.at).round() as i64 }
-    }
-
-    /// Places the lower half nearest to the targets of both halves, and mirrors it.
-    fn place(&self, planes: &[Plane]) -> Option<Vec<i64>> {
-        let (n, doubled) = (planes.len(), self.doubled(planes.len()));
-        let fold = |i: usize| planes[i].folded(&planes[n - 1 - i], doubled);
-        let half: Vec<Plane> = (0..n / 2).map(fold).collect();
-        let middle = (n % 2 == 1).then_some(doubled / 2);
-        let fixed_elsewhere = middle.is_some_and(|x| planes[n / 2].fixed.is_some_and(|f| f != x));
-        let lower = chain(&half, Some(middle.map_or((doubled - 1).div_euclid(2), |x| x - 1)))?;
-        let upper = lower.iter().rev().map(|x| doubled - x);
-        (!fixed_elsewhere).then(|| lower.iter().copied().chain(middle).chain(upper).collect())
-    }
-
-    fn average(&self, placement: &mut [f64]) {
-        let own = || (0..).zip(&self.image).filter(|(l, i)| l != *i).map(|(l, &i): (u32, &u32)| (l, i));
-        // What mirrors itself is on the plane; where nothing does, the mean of all is.
-        let size = own().map(|(l, i)| (placement[l as usize] - placement[i as usize]).abs()).fold(0.0, f64::max);
-        let count = own().count().max(1) as f64;
-        let centre = own().map(|(l, _)| placement[l as usize]).sum::<f64>() / count;
-        let mut offsets: Vec<(f64, u32)> =
-            own().map(|(l, i)| ((placement[l as usize] - placement[i as usize]) / 2.0, l)).collect();
-        offsets.sort_by(|a, b| a.0.abs().total_cmp(&b.0.abs()).then(a.1.cmp(&b.1)));
-        let mut last = 0.0;
-        for (offset, level) in offsets {
-            if offset.abs() - last > SAME * size {
-                last = offset.abs();
+    /// Fixed facets that mirror each other say where the plane of symmetry lies on the lattice: half way between them.
+    fn hold_mirrors(&mut self, structure: &Structure) -> Result<()> {
+        let held: Vec<Option<i64>> = (0..self.axis_of.len() as u32).map(|l| self.held(l)).collect();
+        let fixed: Vec<(u32, i64)> = self.fixed().collect();
+        for (axis, mirror) in self.mirrors.iter_mut().enumerate() {
+            let Some(mirror) = mirror else { continue };
+            let own = (0..).zip(&self.axis_of).filter(|(_, a)| **a == axis).map(|(l, _)| l);
+            mirror.centred = own.filter(|&l| self.classes.of(l) == self.classes.of(mirror.image[l as usize])).collect();
+            for &(level, place) in fixed.iter().filter(|(l, _)| self.axis_of[*l as usize] == axis) {
+                let image = mirror.image[level as usize];
+                if held[image as usize].is_some_and(|other| !mirror.hold(place + other)) {
+                    return Err(no_mirror(structure, axis, level, image));
+                }
             }
-            placement[level as usize] = centre + if offset < 0.0 { -last } else { last };
         }
+        Ok(())
     }
 }
 
@@ -372,4 +340,16 @@ fn same_axis(structure: &Structure, facets: [usize; 2]) -> Result<()> {
     Err(Error::new(ErrorKind::Option, message)
         .at(Place::Facet(facets[1] as u32))
         .remedy("name facets that look along one axis"))
+}
+
+fn no_mirror(structure: &Structure, axis: usize, level: u32, image: u32) -> Error {
+    let facet = |l: u32| structure.facets.iter().position(|f| f.level == l).unwrap_or(0);
+    let axis = ["X", "Y", "Z"][axis];
+    let message = format!(
+        "does not mirror facet {} across {axis} if the fixed facets stay where they are on this lattice",
+        facet(image)
+    );
+    Error::new(ErrorKind::Infeasible, message)
+        .at(Place::Facet(facet(level) as u32))
+        .remedy("fix one of the two only, or choose a scale at which the plane of symmetry lies on the lattice")
 }

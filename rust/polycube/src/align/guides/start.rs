@@ -6,7 +6,7 @@ use crate::align::ranks::Ranks;
 use crate::align::search::Moves;
 use crate::context::Context;
 use crate::error::{Error, ErrorKind, Result};
-use crate::generate::SplitMix64;
+use crate::rng::SplitMix64;
 use crate::structure::{Arrangement, Placement, Structure};
 
 /// Moves tried per level to make the input respect the guides.

@@ -10,7 +10,7 @@ use crate::align::{Alignment, SolverKind, Task};
 use crate::context::Context;
 use crate::error::Result;
 use crate::layout::Counts;
-use crate::structure::{Arrangement, Placement, Structure};
+use crate::structure::{Arrangement, Placement, Structure, placement_of};
 use rayon::prelude::*;
 
 /// Algorithm 1 from λ = 1 again and again until it finds nothing more, so that a second call changes nothing.
@@ -65,7 +65,7 @@ pub fn descend(task: &Task, targets: &[f64], placing: &Guided, context: &Context
         }
         let Some((found, counts)) = improved else { break };
         best = place(&found)?;
-        from = best.iter().map(|&x| x as f64).collect();
+        from = placement_of(&best);
         after = counts;
     }
     Ok(Descent { levels: best, after, rounds: counted(structure, &taken) })
@@ -110,7 +110,7 @@ fn guided(task: &Task, found: Placement) -> Option<Placement> {
 /// The steps with what their results count. Steps in a row with one result are counted together.
 fn counted(structure: &Structure, steps: &[Step]) -> Vec<Round> {
     let rounds = |judge: &mut Judge, steps: &[Step]| {
-        let placement: Placement = steps[0].levels.iter().map(|&x| x as f64).collect();
+        let placement = placement_of(&steps[0].levels);
         let counts = judge.counts_of(&placement);
         steps.iter().map(|step| step.counted(counts)).collect::<Vec<Round>>()
     };

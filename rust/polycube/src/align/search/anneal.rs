@@ -6,8 +6,8 @@ use crate::align::guides::Guided;
 use crate::align::ranks::Ranks;
 use crate::context::Context;
 use crate::error::{Error, ErrorKind, Result};
-use crate::generate::SplitMix64;
 use crate::layout::{Counter, Objective, counter};
+use crate::rng::SplitMix64;
 use crate::structure::Structure;
 use std::time::Instant;
 

@@ -12,7 +12,7 @@ use crate::align::unit::Unit;
 use crate::align::{Alignment, LowerBound, Task, TradeOff};
 use crate::context::Context;
 use crate::error::Result;
-use crate::structure::Placement;
+use crate::structure::placement_of;
 
 /// Algorithm 1, then the search.
 pub fn coarsest(task: &Task, context: &Context) -> Result<Alignment> {
@@ -24,7 +24,7 @@ pub fn coarsest(task: &Task, context: &Context) -> Result<Alignment> {
     // On its own lattice Algorithm 1 gives the search the same start at every scale.
     let own = Unit::of(structure, task.input).apply(structure, task.input);
     let paper = descend(task, &own, &Guided::free(structure), &aligning)?;
-    let start: Placement = paper.levels.iter().map(|&x| x as f64).collect();
+    let start = placement_of(&paper.levels);
     let found = search(task, &start, &context.stage("search", 0.2, 1.0))?;
     // Fewer patches can mean more blocks; the promise is never more of them than there were.
     let mut judge = Judge::new(structure);
@@ -35,7 +35,7 @@ pub fn coarsest(task: &Task, context: &Context) -> Result<Alignment> {
         return simplify(task, context);
     }
     let (chosen, levels) = choose(task, &front, context)?;
-    let placement: Placement = levels.iter().map(|&x| x as f64).collect();
+    let placement = placement_of(&levels);
     let after = Some(judge.counts_of(&placement));
     let Proof { bound, proven, nodes, .. } = found.proof;
     let bound = Some(LowerBound { count: bound, proven: proven && front[0].count == bound, nodes });
@@ -59,7 +59,7 @@ fn choose(task: &Task, front: &[TradeOff], context: &Context) -> Result<(usize, 
     let mut index = TradeOff::index(options.simplicity, front.len());
     loop {
         let levels = place_trade_off(task, &front[index], context)?;
-        let placement: Placement = levels.iter().map(|&x| x as f64).collect();
+        let placement = placement_of(&levels);
         let moved = task.structure.max_displacement(&task.targets, &placement) / options.scale;
         if options.max_displacement.is_none_or(|limit| moved <= limit) || index + 1 == front.len() {
             return Ok((index, levels));
@@ -80,7 +80,7 @@ fn relaxed(task: &Task, found: &Ranks, context: &Context) -> Result<Ranks> {
     let Task { structure, options, .. } = *task;
     let fine = Unit::of(structure, task.input).apply(structure, task.input);
     let start = place_in_order(structure, found, &fine, &Guided::free(structure))?;
-    let start: Placement = start.iter().map(|&x| x as f64).collect();
+    let start = placement_of(&start);
     let outcome = Outcome::of(structure, &start);
     let near = outcome.settle(&fine, &*options.solver.solver(), context)?;
     let order = Ranks::new(structure, &near);

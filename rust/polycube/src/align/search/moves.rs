@@ -2,7 +2,7 @@
 
 use crate::align::guides::Guided;
 use crate::align::ranks::Ranks;
-use crate::generate::SplitMix64;
+use crate::rng::SplitMix64;
 use crate::structure::Structure;
 
 /// Ranks are multiplied by this, so that levels can be put between planes.

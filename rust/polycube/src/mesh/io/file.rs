@@ -19,7 +19,7 @@ pub(super) fn read_file(path: &Path) -> Result<Vec<u8>> {
 /// Writes a file as a whole or not at all: whatever goes wrong, an older file stays as it was.
 ///
 /// The bytes go to a temporary file in the same folder, are flushed to the disk, and the file is renamed.
-/// A symbolic link is followed; the permissions of an older file are kept; a device or pipe is written to directly.
+/// A symbolic link is followed, also where it leads to no file yet; the permissions of an older file are kept; a device or pipe is written to directly.
 ///
 /// # Errors
 /// [`ErrorKind::Io`] naming the path and saying what the operating system said. No temporary file is left.
@@ -35,8 +35,7 @@ fn replace(path: &Path, bytes: &[u8]) -> io::Result<()> {
         Some(data) if data.permissions().readonly() => {
             return Err(io::ErrorKind::PermissionDenied.into());
         }
-        Some(_) => fs::canonicalize(path)?,
-        None => path.to_owned(),
+        _ => followed(path)?,
     };
     let folder = folder_of(&target);
     let mut file = temporary(&folder)?;
@@ -51,6 +50,19 @@ fn replace(path: &Path, bytes: &[u8]) -> io::Result<()> {
         let _ = folder.sync_all();
     }
     Ok(())
+}
+
+/// Most symbolic links that lead on to one another, as in Linux.
+const MOST_LINKS: usize = 40;
+
+/// Where symbolic links at the end of a path lead; there need not be a file.
+fn followed(path: &Path) -> io::Result<PathBuf> {
+    let mut target = path.to_owned();
+    for _ in 0..=MOST_LINKS {
+        let Ok(next) = fs::read_link(&target) else { return Ok(target) };
+        target = folder_of(&target).join(next);
+    }
+    Err(io::Error::other("too many symbolic links that lead on to one another"))
 }
 
 fn folder_of(path: &Path) -> PathBuf {

@@ -42,6 +42,18 @@ use std::path::Path;
 /// and surface, the volume is taken. A surface of quadrilaterals stays one; any other is split into
 /// triangles, each face as a fan around its first corner. The corners of STL are welded where they coincide exactly.
 ///
+/// ```
+/// use polycube::mesh::{self, CellKind, Cells};
+///
+/// # let folder = tempfile::tempdir().unwrap();
+/// # let file = folder.path().join("square.obj");
+/// # std::fs::write(&file, "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nf 1 2 3 4\n").unwrap();
+/// let square = mesh::read(&file)?;
+/// assert_eq!((square.points.len(), square.cells.kind()), (4, CellKind::Quads));
+/// assert_eq!(square.cells, Cells::Quads(vec![[0, 1, 2, 3]]));
+/// # Ok::<(), polycube::Error>(())
+/// ```
+///
 /// # Errors
 /// [`ErrorKind::Io`] when the file cannot be read; [`ErrorKind::Parse`] with the line or cell when it is
 /// malformed; [`ErrorKind::Mesh`] when it holds no cells or a coordinate that is not finite;
@@ -72,6 +84,19 @@ pub fn read_bytes(format: Format, bytes: &[u8]) -> Result<Mesh> {
 /// PLY, VTK and VTU hold every field. MEDIT holds one of integers, as reference numbers: `label`, or else
 /// `block_id`. The other formats leave fields out. In PLY integers named `red`, `green`, `blue` and `alpha` are the
 /// colours of the faces, one byte each (0 to 255).
+///
+/// ```
+/// use polycube::generate::{Example, example};
+/// use polycube::mesh::{self, CellField, CellKind, FieldValues};
+///
+/// # let folder = tempfile::tempdir().unwrap();
+/// # let file = folder.path().join("ring.vtu");
+/// let (cube, _) = example(Example::Ring, 1, CellKind::Quads)?;
+/// let number = FieldValues::Integer((0..).take(cube.cells.len()).collect());
+/// mesh::write(&file, &cube, &[CellField { name: "number".into(), values: number }])?;
+/// assert_eq!(mesh::read(&file)?, cube);
+/// # Ok::<(), polycube::Error>(())
+/// ```
 ///
 /// # Errors
 /// As [`write_bytes`], and [`ErrorKind::Io`] when the file cannot be written.

@@ -4,7 +4,11 @@ use super::scalar::{Endian, Scalar};
 use super::scan::Scanner;
 use super::vtu::{find, line_of};
 use crate::error::{Error, ErrorKind, Result};
+use miniz_oxide::inflate::{TINFLStatus, decompress_to_vec_zlib_with_limit};
 use roxmltree::Node;
+
+/// Numbers that compressed data may inflate to, for each byte of the file. Of regular grids, which are packed best, there is one a byte.
+const MOST_PER_BYTE: usize = 8;
 
 /// What the data arrays of a file have in common.
 pub(super) struct Arrays<'a> {
@@ -14,6 +18,8 @@ pub(super) struct Arrays<'a> {
     appended: Appended<'a>,
     /// Bytes of appended data that were read so far.
     used: usize,
+    /// Numbers that compressed data may still inflate to.
+    room: usize,
 }
 
 #[derive(Clone, Copy)]
@@ -40,6 +46,7 @@ impl<'a> Arrays<'a> {
             compressed: compressor.is_some_and(|name| !name.is_empty()),
             appended: appended_data(appended),
             used: 0,
+            room: MOST_PER_BYTE.saturating_mul(root.document().input_text().len() + appended.len()),
         })
     }
 
@@ -53,19 +60,19 @@ impl<'a> Arrays<'a> {
         let text = array.text().unwrap_or_default().as_bytes();
         let bytes = match array.attribute("format") {
             None | Some("ascii") => return ascii(text),
-            Some("binary") => self.blocks(&mut Source::base64(text))?,
-            Some("appended") => self.appended(array)?,
+            Some("binary") => self.blocks(&mut Source::base64(text), scalar)?,
+            Some("appended") => self.appended(array, scalar)?,
             Some(other) => return Err(bad(&format!("unknown format {other:?}"))),
         };
         Ok(scalar.read_all(&bytes, self.endian))
     }
 
-    fn appended(&mut self, array: &Node) -> Result<Vec<u8>> {
+    fn appended(&mut self, array: &Node, scalar: Scalar) -> Result<Vec<u8>> {
         let offset = array.attribute("offset").and_then(|o| o.trim().parse::<usize>().ok());
         let data = offset.and_then(|o| self.appended.data.get(o..));
         let data = data.ok_or_else(|| bad("the offset is outside the appended data"))?;
         let mut source = Source { base64: self.appended.base64, ..Source::base64(data) };
-        let bytes = self.blocks(&mut source)?;
+        let bytes = self.blocks(&mut source, scalar)?;
         // Arrays do not overlap; if they did, a small file could ask for any amount of memory.
         self.used = self.used.saturating_add(source.at);
         if self.used > self.appended.data.len() {
@@ -74,7 +81,7 @@ impl<'a> Arrays<'a> {
         Ok(bytes)
     }
 
-    fn blocks(&self, source: &mut Source) -> Result<Vec<u8>> {
+    fn blocks(&mut self, source: &mut Source, scalar: Scalar) -> Result<Vec<u8>> {
         if !self.compressed {
             let size = self.size(source)?;
             return source.take(size);
@@ -84,14 +91,14 @@ impl<'a> Arrays<'a> {
         for _ in 0..count {
             packed.push(self.size(source)?);
         }
+        let most = self.room.saturating_mul(scalar.size());
         let mut bytes = Vec::new();
         for (i, length) in packed.into_iter().enumerate() {
             let partial = i + 1 == count && last > 0;
             let expected = if partial { last } else { size };
-            let block = source.take(length)?;
-            let block = miniz_oxide::inflate::decompress_to_vec_zlib_with_limit(&block, expected);
-            bytes.extend(block.map_err(|_| bad("the compressed data are damaged"))?);
+            bytes.extend(inflate(&source.take(length)?, expected, most - bytes.len())?);
         }
+        self.room -= bytes.len().div_ceil(scalar.size());
         Ok(bytes)
     }
 
@@ -101,6 +108,17 @@ impl<'a> Arrays<'a> {
         // Beyond the largest size no data follow anyway.
         Ok(size as usize)
     }
+}
+
+/// A block of `expected` bytes or less, which must not be more than `room`: a small file could ask for any amount of memory.
+fn inflate(block: &[u8], expected: usize, room: usize) -> Result<Vec<u8>> {
+    decompress_to_vec_zlib_with_limit(block, expected.min(room)).map_err(|error| match error.status {
+        TINFLStatus::HasMoreOutput if room < expected => {
+            bad("the compressed data are larger than those of any mesh in a file of this size")
+                .remedy("export it uncompressed")
+        }
+        _ => bad("the compressed data are damaged"),
+    })
 }
 
 fn appended_data(bytes: &[u8]) -> Appended<'_> {

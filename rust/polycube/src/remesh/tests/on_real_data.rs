@@ -3,42 +3,37 @@
 use super::{Case, paper, quality};
 use crate::align::Strategy;
 use crate::context::Context;
-use crate::mesh::read_pair;
+use crate::data::folder;
+use crate::mesh::{Mesh, read_pair};
+use crate::remesh::report::diagonal;
 use crate::remesh::{Remesher, hausdorff};
 use crate::simplify::Options;
-use std::path::PathBuf;
 use std::time::Instant;
 
-/// Names and files of the pairs: as tetrahedra where there are some, else as surfaces.
+/// The names of the pairs, each with the endings of its files.
 pub(super) fn pairs() -> Vec<(String, &'static str)> {
-    let Ok(entries) = std::fs::read_dir(folder()) else {
-        let required = std::env::var("POLYCUBE_REQUIRE_DATA").is_ok_and(|v| v == "1");
-        assert!(!required, "no data in {}", folder().display());
-        println!("skipped: no data");
-        return Vec::new();
-    };
-    let names: Vec<String> = entries.map(|e| e.unwrap().file_name().to_string_lossy().into_owned()).collect();
-    let mut pairs: Vec<(String, &str)> =
-        names.iter().filter_map(|n| Some((n.strip_suffix(".polycube.mesh")?.to_owned(), "mesh"))).collect();
-    let surfaces = names.iter().filter_map(|n| Some((n.strip_suffix(".polycube.obj")?.to_owned(), "obj")));
-    pairs.extend(surfaces.collect::<Vec<_>>());
+    let Some(folder) = folder() else { return Vec::new() };
+    let names: Vec<String> =
+        std::fs::read_dir(folder).unwrap().map(|e| e.unwrap().file_name().into_string().unwrap()).collect();
+    let ending = |n: &String, e: &'static str| Some((n.strip_suffix(e)?.strip_suffix(".polycube.")?.to_owned(), e));
+    let mut pairs: Vec<_> = names.iter().filter_map(|n| ending(n, "mesh").or_else(|| ending(n, "obj"))).collect();
     pairs.sort();
     pairs
 }
 
-pub(super) fn folder() -> PathBuf {
-    let beside = PathBuf::from(env!("CARGO_MANIFEST_DIR")).join("../../../shared/data");
-    std::env::var_os("POLYCUBE_DATA").map_or(beside, PathBuf::from)
+/// The polycube and the shape of a pair.
+pub(super) fn pair(name: &str, extension: &str) -> (Mesh, Mesh) {
+    let file = |part: &str| folder().unwrap().join(format!("{name}.{part}.{extension}"));
+    read_pair(&file("polycube"), &file("shape")).unwrap()
 }
 
 fn load(name: &str, extension: &str, options: &Options) -> Case {
-    let file = |part: &str| folder().join(format!("{name}.{part}.{extension}"));
-    Case::with(options, format!("{name}.{extension}"), read_pair(&file("polycube"), &file("shape")).unwrap())
+    Case::with(options, format!("{name}.{extension}"), pair(name, extension))
 }
 
 /// The published number of hexahedra.
 pub(super) fn published(name: &str) -> usize {
-    let text = std::fs::read_to_string(folder().join("reference.json")).unwrap();
+    let text = std::fs::read_to_string(folder().unwrap().join("reference.json")).unwrap();
     let all: serde_json::Value = serde_json::from_str(&text).unwrap();
     let own = &all[name];
     own["paper_output"]["hexes"].as_u64().or(own["source"]["hexes"].as_u64()).unwrap() as usize
@@ -81,7 +76,7 @@ fn numbers_of_real_pairs() {
         let hexes = remesher.hexes(1, &context).unwrap();
         let hex_time = lap();
         let distance = hausdorff(&quads.mesh, &case.shape, &context).unwrap();
-        let diagonal = diagonal(&case);
+        let diagonal = diagonal(&case.shape);
         let (inverted, worst, mean) = quality(&hexes);
         let blocks = super::distinct(&crate::remesh::base_complex(super::cells(&hexes.mesh)).unwrap());
         assert_eq!(blocks, case.simplified.report.after.unwrap().blocks_padded, "{}", case.name);
@@ -98,10 +93,4 @@ fn numbers_of_real_pairs() {
             case.simplified.report.after.unwrap(),
         );
     }
-}
-
-fn diagonal(case: &Case) -> f64 {
-    let fold = |a: usize, f: fn(f64, f64) -> f64, s: f64| case.shape.points.iter().map(|p| p[a]).fold(s, f);
-    let side = |a: usize| fold(a, f64::max, f64::NEG_INFINITY) - fold(a, f64::min, f64::INFINITY);
-    (0..3).map(|a| side(a) * side(a)).sum::<f64>().sqrt()
 }

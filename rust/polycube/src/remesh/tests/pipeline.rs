@@ -111,8 +111,7 @@ fn small_real_pairs_have_no_inverted_hexahedron() {
         if !small || extension != "obj" {
             continue;
         }
-        let file = |part: &str| super::on_real_data::folder().join(format!("{name}.{part}.{extension}"));
-        let pair = crate::mesh::read_pair(&file("polycube"), &file("shape")).unwrap();
+        let pair = super::on_real_data::pair(&name, extension);
         let wanted = super::on_real_data::published(&name);
         let result = run(&pair, &options(Strategy::Best, wanted));
         check(&name, &result, &pair.1);

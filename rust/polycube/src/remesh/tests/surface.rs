@@ -4,7 +4,7 @@ use super::{Case, quality};
 use crate::align::Strategy;
 use crate::context::Context;
 use crate::generate::{Example, example};
-use crate::mesh::{CellKind, Face, Mesh, Point, split_quad};
+use crate::mesh::{CellKind, Face, Mesh, Point};
 use crate::optimise::Nearest;
 use crate::remesh::{Site, hausdorff};
 use crate::simplify::Options;
@@ -15,10 +15,7 @@ fn size(mesh: &Mesh) -> f64 {
 
 fn surface(mesh: &Mesh) -> Nearest<3> {
     let faces = mesh.cells.boundary().unwrap();
-    let triangles = faces.iter().flat_map(|f| match *f {
-        Face::Triangle(t) => vec![t],
-        Face::Quad(q) => split_quad(q).to_vec(),
-    });
+    let triangles = faces.iter().flat_map(Face::triangles);
     Nearest::new(triangles.map(|t| t.map(|v| mesh.points[v as usize])))
 }
 

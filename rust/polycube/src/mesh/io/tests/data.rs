@@ -4,21 +4,8 @@ use super::*;
 use std::path::PathBuf;
 use std::time::Instant;
 
-/// The folder of the published polycubes; none where it is absent and not required.
-fn folder() -> Option<PathBuf> {
-    let near = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../../shared/data");
-    let folder = std::env::var_os("POLYCUBE_DATA").map_or(near, PathBuf::from);
-    if folder.is_dir() {
-        return Some(folder);
-    }
-    let required = std::env::var_os("POLYCUBE_REQUIRE_DATA").is_some_and(|v| v == "1");
-    assert!(!required, "no data in {}", folder.display());
-    println!("skipped: no data");
-    None
-}
-
 fn polycubes() -> Vec<PathBuf> {
-    let Some(folder) = folder() else {
+    let Some(folder) = crate::data::folder() else {
         return Vec::new();
     };
     let files = fs::read_dir(folder).unwrap().map(|entry| entry.unwrap().path());

@@ -157,6 +157,30 @@ fn links_and_permissions_survive_a_write() {
     assert_eq!(fs::read(&file).unwrap(), b"2");
 }
 
+#[cfg(unix)]
+#[test]
+fn a_link_to_no_file_yet_is_written_through() {
+    use std::os::unix::fs::symlink;
+    let folder = tempfile::tempdir().unwrap();
+    let path = |name: &str| folder.path().join(name);
+    fs::create_dir(path("far")).unwrap();
+    // Two links, relative to their own folders.
+    symlink("far/second", path("first")).unwrap();
+    symlink("../target", path("far/second")).unwrap();
+    write_atomically(&path("first"), b"1").unwrap();
+    assert_eq!(fs::read(path("target")).unwrap(), b"1");
+    assert!(["first", "far/second"].iter().all(|link| fs::symlink_metadata(path(link)).unwrap().is_symlink()));
+    // Into a folder that is not there, and around for ever.
+    symlink("none/target", path("lost")).unwrap();
+    symlink("loop", path("loop")).unwrap();
+    for name in ["lost", "loop"] {
+        let error = write_atomically(&path(name), b"2").unwrap_err();
+        assert!(error.kind == ErrorKind::Io && error.message.contains(name), "{error}");
+        assert!(fs::symlink_metadata(path(name)).unwrap().is_symlink());
+    }
+    assert_eq!(fs::read_dir(folder.path()).unwrap().count(), 5, "no temporary file is left");
+}
+
 #[test]
 fn labels_round_trip_and_name_the_wrong_line() {
     let folder = tempfile::tempdir().unwrap();

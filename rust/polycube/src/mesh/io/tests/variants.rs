@@ -196,6 +196,34 @@ fn vtu_in_every_encoding() {
     }
 }
 
+/// Data compressed in blocks of `size` bytes.
+fn packed(data: &[u8], size: usize) -> Vec<u8> {
+    let blocks: Vec<_> = data.chunks(size).map(|b| miniz_oxide::deflate::compress_to_vec_zlib(b, 6)).collect();
+    let head = [blocks.len(), size, data.len() % size].into_iter().chain(blocks.iter().map(Vec::len));
+    head.flat_map(|x| (x as u32).to_le_bytes()).chain(blocks.concat()).collect()
+}
+
+#[test]
+fn compressed_vtu_may_be_a_regular_grid_but_no_bomb() {
+    let zlib = "compressor=\"vtkZLibDataCompressor\"";
+    let mesh = crate::map::testing::hex_box([20, 20, 20]);
+    let Cells::Hexahedra(cells) = &mesh.cells else { panic!() };
+    let points: Vec<u8> = mesh.points.iter().flat_map(|p| p.iter()).flat_map(|&x| (x as f32).to_le_bytes()).collect();
+    let corners: Vec<u8> = cells.as_flattened().iter().flat_map(|v| v.to_le_bytes()).collect();
+    let ends: Vec<u8> = (1..=cells.len() as u32).flat_map(|i| (8 * i).to_le_bytes()).collect();
+    let grid = [points, corners, ends, vec![12; cells.len()]];
+    for size in [32768, 1 << 24] {
+        let packed = |data: &[u8]| packed(data, size);
+        let file = appended(zlib, "raw", &grid.each_ref().map(|data| packed(data)));
+        assert_eq!(read_bytes(Format::Vtu, &file).unwrap().cells, mesh.cells);
+        let mut bomb = grid.each_ref().map(|data| packed(data));
+        bomb[0] = packed(&vec![0; 1 << 26]);
+        let error = read_bytes(Format::Vtu, &appended(zlib, "raw", &bomb)).unwrap_err();
+        assert_eq!(error.kind, ErrorKind::Parse);
+        assert!(error.message.contains("larger") && error.remedy.contains("uncompressed"), "{error}");
+    }
+}
+
 fn appended(attributes: &str, encoding: &str, data: &[Vec<u8>; 4]) -> Vec<u8> {
     let mut offset = 0;
     let arrays = data.each_ref().map(|d| {

@@ -1,0 +1,83 @@
+//! The options of the search that `simplify` and `remesh` share.
+
+use crate::args::{fraction, positive};
+use crate::failure::Result;
+use crate::guides;
+use clap::ValueHint;
+use clap::builder::PossibleValue;
+use polycube::align::{Effort, Guides, SolverKind};
+use polycube::simplify::{Input, Options};
+use polycube::structure::Tolerance;
+use std::path::{Path, PathBuf};
+use std::time::Duration;
+
+/// How long and how it is searched, and what must stay.
+#[derive(clap::Args, Clone, Debug)]
+pub struct SearchArgs {
+    /// Stop before the weight λ of staying close to the input falls below this, from 0 (coarsest) to 1 (one round)
+    #[arg(long, value_name = "L", value_parser = fraction, default_value_t = 0.0)]
+    lambda_min: f64,
+
+    /// How long `best` searches: moves tried per level of the polycube in each of its eight chains
+    #[arg(long, value_name = "N", default_value_t = Effort::default().steps_per_level)]
+    steps: u32,
+
+    /// Facets that must not move, that must or must not align, and planes of symmetry to keep: a JSON file, see README.md
+    #[arg(long, value_name = "FILE", value_hint = ValueHint::FilePath)]
+    guides: Option<PathBuf>,
+
+    /// How long `best` tries to prove that its result cannot be beaten: partial orders looked at
+    #[arg(long, value_name = "N", default_value_t = Effort::default().proof_nodes)]
+    proof_nodes: u64,
+
+    /// Stop the search after this many seconds with the best found; the result may then differ from run to run
+    #[arg(long, value_name = "SECONDS", value_parser = positive)]
+    time_limit: Option<f64>,
+
+    /// Who solves the integer problems
+    #[arg(long, value_enum, default_value_t)]
+    solver: SolverArg,
+}
+
+impl Default for SearchArgs {
+    fn default() -> Self {
+        let Effort { steps_per_level: steps, proof_nodes, .. } = Effort::default();
+        Self { lambda_min: 0.0, steps, guides: None, proof_nodes, time_limit: None, solver: SolverArg::default() }
+    }
+}
+
+impl SearchArgs {
+    /// These options for `simplify`, but for the guides.
+    pub fn set(&self, options: Options) -> Options {
+        let effort = Effort {
+            steps_per_level: self.steps,
+            proof_nodes: self.proof_nodes,
+            // What no duration holds is no limit.
+            time_limit: self.time_limit.and_then(|s| Duration::try_from_secs_f64(s).ok()),
+        };
+        Options { lambda_min: self.lambda_min, solver: self.solver.0, effort, ..options }
+    }
+
+    /// Reads the guides for `input`, which came from the file `of`; none if none were asked for.
+    pub fn guides(&self, of: &Path, input: &Input, tolerance: &Tolerance) -> Result<Guides> {
+        self.guides.as_deref().map_or_else(|| Ok(Guides::default()), |file| guides::read(file, of, input, tolerance))
+    }
+}
+
+/// A [`SolverKind`] on the command line.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct SolverArg(pub SolverKind);
+
+impl clap::ValueEnum for SolverArg {
+    fn value_variants<'a>() -> &'a [Self] {
+        &[Self(SolverKind::Exact), Self(SolverKind::Linear)]
+    }
+
+    fn to_possible_value(&self) -> Option<PossibleValue> {
+        let (name, help) = match self.0 {
+            SolverKind::Exact => ("exact", "Minimum cuts in integer arithmetic"),
+            SolverKind::Linear => ("linear", "Linear programs, with the separation planes as in the paper; slow"),
+        };
+        Some(PossibleValue::new(name).help(help))
+    }
+}
