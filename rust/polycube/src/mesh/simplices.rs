@@ -4,7 +4,7 @@
 //! that share it cut it alike (Dompierre, Labbé, Vallet, Camarero: "How to subdivide pyramids,
 //! prisms and hexahedra into tetrahedra", 1999).
 
-use super::{Cells, hexahedron};
+use super::{Cells, Stars, hexahedron};
 use crate::error::{Error, ErrorKind, Place, Result};
 use std::borrow::Cow;
 
@@ -69,7 +69,7 @@ impl Cells {
     /// The faces that belong to one cell only, outward, in the order of the cells and then of
     /// VTK's local faces. The boundary of a surface is its cells.
     ///
-    /// O(n log n) time, about 120 bytes a tetrahedron of passing memory.
+    /// O(n log n) time, linear but for fans of many cells around a vertex; about 50 bytes a tetrahedron of passing memory.
     ///
     /// # Errors
     /// [`ErrorKind::Mesh`] naming a cell when more than two cells share one face, or when the
@@ -117,18 +117,27 @@ fn outer<const C: usize, const K: usize, const F: usize>(
         return Err(Error::new(ErrorKind::Mesh, "the mesh has too many cells"));
     }
     let face = |i: u32| table[i as usize % F].map(|k| cells[i as usize / F][k]);
-    let mut keys: Vec<(u128, u32)> = (0..(cells.len() * F) as u32).map(|i| (key(face(i)), i)).collect();
-    keys.sort_unstable();
-    let mut single = Vec::new();
-    for group in keys.chunk_by(|a, b| a.0 == b.0) {
-        match group {
-            [one] => single.push(one.1),
-            [_, _] => {}
-            [_, _, third, ..] => {
-                return Err(crowded(&face(third.1), third.1 / F as u32, group.len()));
+    // Cells that share a face are in one drawer; there are as many drawers as cells, whatever numbers vertices have.
+    let drawer = |i: u32| face(i).into_iter().min().map(|v| v % cells.len() as u32);
+    let drawers = Stars::new(cells.len(), (0..(cells.len() * F) as u32).map(drawer));
+    let (mut single, mut worst) = (Vec::new(), None);
+    let mut keys: Vec<(u128, u32)> = Vec::new();
+    for faces in (0..cells.len()).map(|d| drawers.of(d)) {
+        keys.clear();
+        keys.extend(faces.iter().map(|&i| (key(face(i)), i)));
+        keys.sort_unstable();
+        for group in keys.chunk_by(|a, b| a.0 == b.0) {
+            match group {
+                [one] => single.push(one.1),
+                [first, _, third, ..] => {
+                    worst = worst.into_iter().chain([(first.0, third.1, group.len())]).min();
+                }
+                _ => {}
             }
-            [] => {}
         }
+    }
+    if let Some((_, third, count)) = worst {
+        return Err(crowded(&face(third), third / F as u32, count));
     }
     single.sort_unstable();
     Ok(single.into_iter().map(|i| make(face(i))).collect())

@@ -2,8 +2,8 @@
 
 use super::quality::edges;
 use crate::error::{Error, ErrorKind, Place, Result};
-use crate::mesh::Point;
 use crate::mesh::hexahedron::{CORNERS, EDGES, corner_tetrahedra};
+use crate::mesh::{Point, Stars};
 use nalgebra::{Matrix3, Vector3};
 use rayon::prelude::*;
 
@@ -261,14 +261,21 @@ fn box_sizes(hexes: &[[u32; 8]], points: &[Point], smoothing: usize) -> Vec<[f64
     all(&lengths).chunks_exact(3).map(|l| [l[0], l[1], l[2]].map(positive)).collect()
 }
 
-/// The edges of each set of four parallel ones, three sets a hexahedron; and the length of each edge.
+/// The edges of each set of four parallel ones, three sets a hexahedron; and the length of each edge. Linear time.
 fn number_edges(hexes: &[[u32; 8]], points: &[Point]) -> (Vec<[u32; 4]>, Vec<f64>) {
-    let key = |hex: &[u32; 8], [a, b]: [usize; 2]| (hex[a].min(hex[b]), hex[a].max(hex[b]));
-    let keys = hexes.iter().flat_map(|hex| EDGES.iter().map(move |set| set.map(|e| key(hex, e))));
-    let mut sorted: Vec<(u32, u32)> = keys.clone().flatten().collect();
-    sorted.par_sort_unstable();
-    sorted.dedup();
-    let id = |key: (u32, u32)| sorted.partition_point(|k| *k < key) as u32;
-    let lengths = sorted.iter().map(|&(a, b)| (points[a as usize] - points[b as usize]).norm()).collect();
-    (keys.map(|set| set.map(id)).collect(), lengths)
+    let all = hexes.iter().flat_map(|hex| EDGES.as_flattened().iter().map(|end| end.map(|k| hex[k])));
+    let ends: Vec<[u32; 2]> = all.map(|[a, b]| [a.min(b), a.max(b)]).collect();
+    let from = Stars::new(points.len(), ends.iter().map(|end| Some(end[0])));
+    let (mut ids, mut lengths) = (vec![[0; 4]; 3 * hexes.len()], Vec::new());
+    let mut own = Vec::new();
+    for v in 0..points.len() {
+        own.clear();
+        own.extend(from.of(v).iter().map(|&i| (ends[i as usize][1], i as usize)));
+        own.sort_unstable();
+        for edge in own.chunk_by(|a, b| a.0 == b.0) {
+            edge.iter().for_each(|&(_, i)| ids[i / 4][i % 4] = lengths.len() as u32);
+            lengths.push((points[v] - points[edge[0].0 as usize]).norm());
+        }
+    }
+    (ids, lengths)
 }

@@ -49,9 +49,6 @@ use improve::{Improved, improve};
 use problem::Problem;
 use untangle::Effort;
 
-/// Least gain of a round that untangles all of a mesh.
-const LEAST_GAIN: f64 = 0.1;
-
 /// What moves to untangle a mesh.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Scope {
@@ -71,10 +68,13 @@ pub struct Settings {
     pub theta: f64,
     /// What moves to untangle; [`Scope::NearFirst`] by default.
     pub scope: Scope,
-    /// Most rounds of untangling all of the mesh, each with a smaller ε; 60 by default.
+    /// Most rounds of untangling, each with a smaller ε; 60 by default.
     pub untangle_rounds: usize,
-    /// Most iterations of a round of untangling all of the mesh; 100 by default.
+    /// Most iterations of a round of untangling; 100 by default.
     pub untangle_iterations: usize,
+    /// Least share of the energy that a round of untangling is taken to gain, in `0..1` (σ of Garanzha et al.); the larger, the
+    /// faster ε falls; 0.1 by default.
+    pub least_gain: f64,
     /// Rounds of improvement, with exponents growing from 2 to 64; 0 to leave the mesh untangled only; 6 by default.
     pub improve_rounds: usize,
     /// Most iterations of a round of improvement; 30 by default.
@@ -94,6 +94,7 @@ impl Default for Settings {
             scope: Scope::NearFirst,
             untangle_rounds: 60,
             untangle_iterations: 100,
+            least_gain: 0.1,
             improve_rounds: 6,
             improve_iterations: 30,
             average: 4.0,
@@ -188,17 +189,16 @@ fn run(problem: &mut Problem, points: &mut Vec<Point>, settings: &Settings, cont
 
 /// The first phase; whether no element is inverted after it.
 fn untangle(problem: &mut Problem, points: &mut Vec<Point>, settings: &Settings, context: &Context) -> Result<bool> {
-    let Settings { theta, untangle_rounds: rounds, untangle_iterations: iterations, scope, .. } = *settings;
+    let scope = settings.scope;
     let before = problem.assembly.census(points).inverted;
     if scope != Scope::Whole {
-        let left = near::untangle(problem, points, theta, &context.stage("untangle", 0.0, 0.2))?;
+        let left = near::untangle(problem, points, settings, &context.stage("untangle", 0.0, 0.2))?;
         if left < before || scope == Scope::Near {
             return Ok(left == 0);
         }
     }
     let start = points.clone();
-    let effort = Effort { theta, rounds, iterations, least_gain: LEAST_GAIN, patience: usize::MAX };
-    untangle::untangle(problem, points, &effort, &context.stage("untangle", 0.2, 1.0))?;
+    untangle::untangle(problem, points, &Effort::new(settings), &context.stage("untangle", 0.2, 1.0))?;
     let left = problem.assembly.census(points).inverted;
     if left > before {
         points.copy_from_slice(&start);
@@ -232,10 +232,13 @@ fn check(points: &[Point], elements: &Elements, freedom: &[Freedom], settings: &
         return Err(Error::new(ErrorKind::Mismatch, message).remedy("give one freedom per point"));
     }
     let weights = 0.0..f64::INFINITY;
-    let Settings { theta, average, strength, .. } = *settings;
-    if !((0.0..1.0).contains(&theta) && [average, strength].iter().all(|x| weights.contains(x))) {
-        let message = format!("theta {theta}, average {average} or strength {strength} is out of range");
-        return Err(Error::new(ErrorKind::Option, message).remedy("use 0 <= theta < 1, average >= 0 and strength >= 0"));
+    let Settings { theta, average, strength, least_gain, .. } = *settings;
+    let shares = [theta, least_gain].iter().all(|x| (0.0..1.0).contains(x));
+    if !(shares && [average, strength].iter().all(|x| weights.contains(x))) {
+        let message =
+            format!("theta {theta}, average {average}, strength {strength} or least gain {least_gain} is out of range");
+        return Err(Error::new(ErrorKind::Option, message)
+            .remedy("use 0 <= theta < 1, average >= 0, strength >= 0 and 0 <= least gain < 1"));
     }
     if let Some(v) = points.iter().position(|p| p.coords.iter().any(|x| !x.is_finite())) {
         return Err(Error::new(ErrorKind::Mesh, "a coordinate is not finite").at(Place::Vertex(v as u32)));

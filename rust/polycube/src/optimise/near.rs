@@ -1,43 +1,35 @@
 //! Untangles what is near inverted cells, while all else stays: a small part of the work where there are few.
 
+use super::Settings;
 use super::elements::Elements;
 use super::freedom::{Constraints, Freedom};
 use super::problem::Problem;
 use super::region::{Region, Room, regions};
 use super::untangle::{Effort, untangle as untangle_all};
-use super::{Settings, raise};
 use crate::context::Context;
 use crate::error::Result;
 use crate::mesh::Point;
 use rayon::prelude::*;
 
 /// How much around inverted cells moves: little at first, more where that is not enough.
-const ROOMS: [Room; 2] = [Room { rings: 2, cells: 50 }, Room { rings: 3, cells: 200 }];
+const ROOMS: [Room; 2] = [Room { rings: 2, elements: 50 }, Room { rings: 4, elements: 200 }];
 
 /// Regions that have more than this part of all cells together are left alone, the largest first: moving all is no more work then.
 const LARGE: f64 = 0.25;
 /// But not where they have fewer elements than this, which take a second at most.
 const SMALL: usize = 50_000;
 
-/// In a small region ε may fall fast, from the mean determinant to a hundredth of it; where that is not enough, there is no room.
-const EFFORT: Effort = Effort { theta: 0.1, rounds: 12, iterations: 200, least_gain: 0.5, patience: 3 };
-
-/// A little smoothing, so that nothing is left all but flat.
-const SMOOTHING: Settings = Settings {
-    theta: EFFORT.theta,
-    scope: super::Scope::Near,
-    untangle_rounds: 0,
-    untangle_iterations: 0,
-    improve_rounds: 1,
-    improve_iterations: 20,
-    average: 0.0,
-    strength: 0.0,
-    polish_rounds: 0,
-};
+/// Rounds in which a region must get much better.
+const PATIENCE: usize = 3;
 
 /// Untangles the regions around inverted cells, each by itself. Returns how many cells are still inverted. Sliding vertices are on their
 /// guides before and after.
-pub(super) fn untangle(problem: &mut Problem, points: &mut [Point], theta: f64, context: &Context) -> Result<usize> {
+pub(super) fn untangle(
+    problem: &mut Problem,
+    points: &mut [Point],
+    settings: &Settings,
+    context: &Context,
+) -> Result<usize> {
     let most = problem.elements.cells_in(SMALL).max((LARGE * problem.elements.cells() as f64) as usize);
     let mut bad = problem.assembly.inverted(points);
     for (i, room) in ROOMS.into_iter().enumerate() {
@@ -47,7 +39,7 @@ pub(super) fn untangle(problem: &mut Problem, points: &mut [Point], theta: f64, 
         }
         let context = context.stage("untangle", from, to);
         let regions = regions(problem.elements, &problem.constraints, &bad, room, most, &context)?;
-        untangle_regions(problem, points, &regions, theta, &context)?;
+        untangle_regions(problem, points, &regions, settings, &context)?;
         bad = problem.assembly.inverted(points);
     }
     Ok(bad.len())
@@ -58,13 +50,15 @@ fn untangle_regions(
     problem: &mut Problem,
     points: &mut [Point],
     regions: &[Region],
-    theta: f64,
+    settings: &Settings,
     context: &Context,
 ) -> Result<()> {
     let part =
         |i: usize| context.stage("untangle", i as f64 / regions.len() as f64, (i + 1) as f64 / regions.len() as f64);
+    let effort = Effort { patience: PATIENCE, ..Effort::new(settings) };
     let (elements, constraints) = (problem.elements, &problem.constraints);
-    let solve = |(i, region)| Part::new(elements, constraints, region).untangled(constraints, points, theta, &part(i));
+    let solve =
+        |(i, region)| Part::new(elements, constraints, region).untangled(constraints, points, &effort, &part(i));
     let solved = regions.par_iter().enumerate().map(solve).collect::<Result<Vec<_>>>()?;
     for (iterations, moves) in solved {
         problem.iterations += iterations;
@@ -100,7 +94,7 @@ impl Part {
         mut self,
         constraints: &Constraints,
         points: &[Point],
-        theta: f64,
+        effort: &Effort,
         context: &Context,
     ) -> Result<(usize, Vec<(u32, Point)>)> {
         let mut points: Vec<Point> = self.vertices.iter().map(|&v| points[v as usize]).collect();
@@ -109,9 +103,7 @@ impl Part {
         constraints.project(&mut points);
         let mut problem = Problem::new(&self.elements, constraints, points.len());
         let before = problem.assembly.census(&points).inverted;
-        if untangle_all(&mut problem, &mut points, &Effort { theta, ..EFFORT }, context)? {
-            raise(&mut problem, &mut points, &Settings { theta, ..SMOOTHING }, context)?;
-        }
+        untangle_all(&mut problem, &mut points, effort, context)?;
         let better = problem.assembly.census(&points).inverted < before;
         let moves = self.vertices.into_iter().zip(points).zip(&self.freedom);
         let moves = moves.filter(|(_, freedom)| better && **freedom != Freedom::Fixed).map(|(to, _)| to).collect();

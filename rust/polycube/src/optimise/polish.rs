@@ -33,6 +33,9 @@ pub(super) fn polish(
     wanted: f64,
     context: &Context,
 ) -> Result<()> {
+    if rounds == 0 {
+        return Ok(());
+    }
     let stars = Stars::new(points.len(), elements.corners.iter().copied());
     for round in 0..LONGER * rounds {
         context.tick(round as f64 / (LONGER * rounds) as f64)?;

@@ -21,8 +21,8 @@ pub(super) struct Region {
 pub(super) struct Room {
     /// Least number of rings of cells around inverted ones.
     pub(super) rings: usize,
-    /// Least number of cells for each inverted one: a large fold needs a large neighbourhood to be drawn smooth in.
-    pub(super) cells: usize,
+    /// Least number of elements for each inverted cell: a large fold needs a large neighbourhood to be drawn smooth in.
+    pub(super) elements: usize,
 }
 
 /// The regions around the cells `bad`, of `most` cells together: the largest are left out. Cells without a vertex that can move are
@@ -36,7 +36,7 @@ pub(super) fn regions(
     context: &Context,
 ) -> Result<Vec<Region>> {
     let mut growth = Growth::new(elements, constraints, bad);
-    let enough = |r: &Region| (room.cells * r.bad).min(most / 2);
+    let enough = |r: &Region| elements.cells_in(room.elements * r.bad).min(most / 2);
     for ring in 1.. {
         context.tick(0.0)?;
         let mut regions = growth.regions();
@@ -136,7 +136,7 @@ mod tests {
     use super::*;
     use crate::optimise::Freedom;
 
-    const ROOM: Room = Room { rings: 2, cells: 50 };
+    const ROOM: Room = Room { rings: 2, elements: 400 };
     const SIDE: usize = 12;
 
     /// A cube of cubes.
@@ -168,7 +168,7 @@ mod tests {
         let constraints = Constraints::new(&freedom, &[]).unwrap();
         let middle = elements.cells() / 2;
         let bad = [0, middle];
-        let room = Room { rings: 1, cells: 0 };
+        let room = Room { rings: 1, elements: 0 };
         let of = |most| regions(&elements, &constraints, &bad, room, most, &Context::default()).unwrap();
         let [small, large] = &of(elements.cells())[..] else { panic!("two regions") };
         assert!(small.cells.contains(&0) && large.cells.contains(&(middle as u32)));
@@ -184,7 +184,7 @@ mod tests {
         let found = found(&elements, &constraints, &bad, ROOM);
         assert_eq!(found.len(), 3);
         for region in &found {
-            assert!(region.cells.len() >= ROOM.cells * region.bad);
+            assert!(region.cells.len() >= ROOM.elements / 8 * region.bad);
             assert!(region.moving.iter().all(|&v| freedom[v as usize] == Freedom::Free));
             for cell in 0..elements.cells() {
                 let touches = elements.vertices_of(cell).any(|v| region.moving.binary_search(&v).is_ok());
@@ -204,7 +204,7 @@ mod tests {
     fn what_is_held_bounds_its_regions() {
         let (elements, freedom) = (cube(), inside(3));
         let constraints = Constraints::new(&freedom, &[]).unwrap();
-        let found = found(&elements, &constraints, &[elements.cells() / 2], Room { rings: 100, cells: 0 });
+        let found = found(&elements, &constraints, &[elements.cells() / 2], Room { rings: 100, elements: 0 });
         assert_eq!(found.len(), 1);
         assert_eq!(found[0].moving.len(), (SIDE - 5).pow(3));
         assert_eq!(found[0].cells.len(), (SIDE - 4).pow(3));

@@ -1,5 +1,6 @@
 //! Turns inverted elements the right way round.
 
+use super::Settings;
 use super::energy::Law;
 use super::lbfgs::Limits;
 use super::problem::Problem;
@@ -28,6 +29,14 @@ pub(super) struct Effort {
     pub(super) least_gain: f64,
     /// Where so many rounds leave more than [`SLOW`] of the cells inverted, there is no room, and no more rounds are made.
     pub(super) patience: usize,
+}
+
+impl Effort {
+    /// All rounds of the settings.
+    pub(super) fn new(settings: &Settings) -> Self {
+        let Settings { theta, untangle_rounds, untangle_iterations, least_gain, .. } = *settings;
+        Self { theta, rounds: untangle_rounds, iterations: untangle_iterations, least_gain, patience: usize::MAX }
+    }
 }
 
 /// Minimises the regularised energy for falling ε until no element is inverted or the rounds are used up. Returns whether

@@ -1,5 +1,6 @@
 //! The base complex of any hexahedral mesh, from its cells alone.
 
+use crate::context::Context;
 use crate::error::{Error, ErrorKind, Place, Result};
 use crate::mesh::hexahedron::FACES;
 
@@ -14,11 +15,16 @@ const NONE: u32 = u32::MAX;
 /// O(n log n) time for n hexahedra, about 400 bytes of passing memory for each.
 ///
 /// # Errors
-/// [`ErrorKind::Mesh`] naming a cell when three cells share a face, or when there are too many for 32-bit indices.
-pub fn base_complex(hexes: &[[u32; 8]]) -> Result<Vec<u32>> {
+/// [`ErrorKind::Mesh`] naming a cell when three cells share a face, or when there are too many for 32-bit indices;
+/// [`ErrorKind::Cancelled`].
+pub fn base_complex(hexes: &[[u32; 8]], context: &Context) -> Result<Vec<u32>> {
+    context.tick(0.0)?;
     let faces = Faces::new(hexes)?;
+    context.tick(0.4)?;
     let edges = Edges::new(&faces);
+    context.tick(0.8)?;
     let sheets = edges.sheets(&faces);
+    context.tick(0.9)?;
     Ok(blocks(hexes.len(), &faces, &sheets))
 }
 

@@ -32,21 +32,22 @@ fn middle(face: &Face, points: &[Point]) -> Point {
     Point::from(sum / corners.len() as f64)
 }
 
-/// Where samples of a shape are farther than `bound` from the surface of `mesh`, or those of its faces from the `shape`, the
+/// Where samples of a shape are farther than `bound` from the `faces` around a `mesh`, or those of its faces from the `shape`, the
 /// farthest first: the samples that [`hausdorff`](hausdorff::hausdorff) takes. O(n log n).
 ///
 /// # Errors
-/// Those of [`boundary`](crate::mesh::Cells::boundary); [`ErrorKind::Cancelled`](crate::ErrorKind::Cancelled).
+/// [`ErrorKind::Cancelled`](crate::ErrorKind::Cancelled).
 pub(super) fn gaps(
-    mesh: &Mesh,
+    (mesh, faces): (&Mesh, &[Face]),
     (shape, samples): (&dyn Guide, &[Point]),
     bound: f64,
     context: &Context,
 ) -> Result<Vec<Gap>> {
     context.tick(0.0)?;
-    let faces = mesh.cells.boundary()?;
     let pieces: Vec<_> = faces.iter().flat_map(|f| triangles(mesh, f).into_iter().map(move |t| (*f, t))).collect();
+    context.tick(0.0)?;
     let index = Nearest::new(pieces.iter().map(|(_, t)| *t));
+    context.tick(0.0)?;
     let gap = |at: &Point| {
         let foot = index.foot(at)?;
         let distance = (foot.point - at).norm();

@@ -169,7 +169,9 @@ impl Job<'_> {
         let settings = Settings { untangle_rounds: settings.untangle_rounds.min(LATE_ROUNDS), ..settings.clone() };
         for pass in 0..PASSES {
             let [from, to] = [pass, pass + 1].map(|p| p as f64 / PASSES as f64);
+            context.tick(from)?;
             self.resize()?;
+            context.tick(from)?;
             let before = self.released;
             self.release(POOR, Slides::is_smooth);
             let points = &mut self.hexes.mesh.points;

@@ -5,7 +5,7 @@ use super::improve::{Job, POOR};
 use super::report::{self, cells_of};
 use crate::context::Context;
 use crate::error::Result;
-use crate::mesh::{Point, Stars};
+use crate::mesh::{Face, Point, Stars};
 use crate::optimise::{Freedom, Settings, scaled_jacobian};
 
 /// How often vertices are moved there,
@@ -69,11 +69,13 @@ impl Job<'_> {
         if worst <= 0.0 {
             return Ok(f64::INFINITY);
         }
+        context.tick(0.0)?;
         let around = self.around();
+        let faces = self.hexes.mesh.cells.boundary()?;
         let start = self.hexes.mesh.points.clone();
         let mut held = self.freedom.clone();
         let mut pull = Pull::Bold;
-        let mut found = self.gaps(samples, bound, context)?;
+        let mut found = self.gaps(&faces, samples, bound, context)?;
         let far = found.first().map_or(0.0, |g| g.distance);
         if far > TOO_FAR * bound {
             return Ok(far);
@@ -83,9 +85,10 @@ impl Job<'_> {
             let [from, to] = [round, round + 1].map(|r| r as f64 / ROUNDS as f64);
             let before = (self.hexes.mesh.points.clone(), held.clone());
             self.pull_all(&found, ON * bound, pull, &around, &mut held);
+            context.tick(0.0)?;
             self.resize()?;
             self.run(&held, settings, &context.stage("reach", from, to))?;
-            let left = self.gaps(samples, bound, context)?;
+            let left = self.gaps(&faces, samples, bound, context)?;
             let reached = report::worst(self.hexes);
             let enough = bound + LEFT * (farthest - bound);
             if left.first().is_none_or(|g| g.distance < enough) && reached > POOR.min(KEPT * worst) {
@@ -106,8 +109,8 @@ impl Job<'_> {
         Ok(far)
     }
 
-    fn gaps(&self, samples: &[Point], bound: f64, context: &Context) -> Result<Vec<Gap>> {
-        gaps(&self.hexes.mesh, (self.whole(), samples), NEARER * bound, &context.stage("reach", 0.0, 0.0))
+    fn gaps(&self, faces: &[Face], samples: &[Point], bound: f64, context: &Context) -> Result<Vec<Gap>> {
+        gaps((&self.hexes.mesh, faces), (self.whole(), samples), NEARER * bound, &context.stage("reach", 0.0, 0.0))
     }
 
     /// Pulls vertices to the gaps, the farthest first, and one only of a face and those around it.

@@ -115,7 +115,9 @@ pub(super) fn measure(
     context: &Context,
 ) -> Result<RemeshReport> {
     let start = std::time::Instant::now();
-    let distance = hausdorff(&meshed.quads.mesh, shape, context)?;
+    let distance = hausdorff(&meshed.quads.mesh, shape, &context.stage("hausdorff", 0.0, 0.8))?;
+    let counting = context.stage("count", 0.8, 1.0);
+    counting.tick(0.0)?;
     let diagonal = diagonal(shape);
     let none = Vec::new();
     let qualities = meshed.hexes.as_ref().map_or(Ok(none), |h| cell_qualities(&h.mesh))?;
@@ -128,7 +130,7 @@ pub(super) fn measure(
         inverted_quads: meshed.quads.inverted(),
         folded: if some { 0 } else { meshed.folded },
         hexes: found.cells,
-        hex_blocks: meshed.hexes.as_ref().map_or(Ok(0), count_blocks)?,
+        hex_blocks: meshed.hexes.as_ref().map_or(Ok(0), |h| count_blocks(h, &counting))?,
         padding: options.padding,
         released: meshed.released,
         inverted: found.inverted,
@@ -213,8 +215,8 @@ fn rounded(count: f64) -> f64 {
     (count / unit).ceil() * unit
 }
 
-fn count_blocks(hexes: &Hexes) -> Result<usize> {
-    Ok(base_complex(cells_of(hexes))?.into_iter().max().map_or(0, |b| b as usize + 1))
+fn count_blocks(hexes: &Hexes, context: &Context) -> Result<usize> {
+    Ok(base_complex(cells_of(hexes), context)?.into_iter().max().map_or(0, |b| b as usize + 1))
 }
 
 fn inverted(hexes: &Hexes, scaled_jacobian: &[f64]) -> Vec<InvertedCell> {

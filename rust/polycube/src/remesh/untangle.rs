@@ -12,6 +12,7 @@ const UNTANGLE: Settings = Settings {
     scope: Scope::NearFirst,
     untangle_rounds: 40,
     untangle_iterations: 100,
+    least_gain: 0.1,
     improve_rounds: 0,
     improve_iterations: 0,
     average: 0.0,

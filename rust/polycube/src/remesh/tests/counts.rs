@@ -23,7 +23,7 @@ fn check_topology(case: &Case, mesh: &Mesh) {
 
 fn check_blocks(case: &Case, hexes: &Hexes, expected: usize) {
     assert_eq!(distinct(&hexes.block_id), expected, "{}", case.name);
-    let found = base_complex(cells(&hexes.mesh)).unwrap();
+    let found = base_complex(cells(&hexes.mesh), &Context::default()).unwrap();
     assert_eq!(distinct(&found), expected, "{}: base complex", case.name);
     let mut pairs: Vec<_> = found.iter().zip(&hexes.block_id).collect();
     pairs.sort_unstable();

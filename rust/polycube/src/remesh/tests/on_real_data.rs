@@ -78,7 +78,8 @@ fn numbers_of_real_pairs() {
         let distance = hausdorff(&quads.mesh, &case.shape, &context).unwrap();
         let diagonal = diagonal(&case.shape);
         let (inverted, worst, mean) = quality(&hexes);
-        let blocks = super::distinct(&crate::remesh::base_complex(super::cells(&hexes.mesh)).unwrap());
+        let blocks =
+            super::distinct(&crate::remesh::base_complex(super::cells(&hexes.mesh), &Context::default()).unwrap());
         assert_eq!(blocks, case.simplified.report.after.unwrap().blocks_padded, "{}", case.name);
         println!(
             "{} wanted {} got {} inverted {inverted} min {worst:.3} avg {mean:.3} guessed {} flipped in {} hausdorff {:.3}% | simplify {simplified} size {sized} grid {grid} quads {quad_time} hexes {hex_time} hausdorff {} total {:.2} | {:?}",

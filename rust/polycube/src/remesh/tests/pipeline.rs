@@ -26,7 +26,7 @@ fn check(name: &str, result: &Remeshed, shape: &Mesh) {
     let report = &result.report;
     assert_eq!((inverted, report.inverted), (0, 0), "{name}: {:?}", report.inverted_cells);
     assert!((worst - report.min_sj.unwrap()).abs() < 1e-9 && (mean - report.avg_sj.unwrap()).abs() < 1e-9, "{name}");
-    let blocks = distinct(&base_complex(cells(&hexes.mesh)).unwrap());
+    let blocks = distinct(&base_complex(cells(&hexes.mesh), &Context::default()).unwrap());
     assert_eq!(blocks, report.simplify.after.unwrap().blocks_padded, "{name}");
     assert_eq!((blocks, result.layout.blocks.cells.len()), (report.hex_blocks, blocks), "{name}");
     let distance = hausdorff(&result.quads.mesh, shape, &Context::default()).unwrap();
