@@ -1,6 +1,7 @@
 //! Moving along the front between few blocks and little displacement, without searching again.
 
-use super::{Input, Options, Report, Simplified, finish, max_displacement};
+use super::report::max_displacement;
+use super::{Input, Options, Report, Seconds, Simplified, finish};
 use crate::align::{self, Alignment, Strategy, TradeOff};
 use crate::context::Context;
 use crate::error::{Error, ErrorKind, Result};
@@ -35,7 +36,7 @@ impl Simplified {
         let located = self.locate(simplicity, context)?;
         let mut moved = self.moved(input, located, context)?;
         let total = start.elapsed().as_secs_f64();
-        moved.report.seconds = super::Seconds { morph: total, total, ..super::Seconds::default() };
+        moved.report.seconds = Seconds { morph: total, total, ..Seconds::default() };
         Ok(moved)
     }
 
