@@ -6,16 +6,19 @@ use crate::error::{Error, ErrorKind, Place, Result};
 use crate::layout::{Objective, count};
 use crate::map::morph;
 use crate::mesh::{Mesh, Point};
-use crate::structure::{Arrangement, Polycube, Tolerance, Violation};
+use crate::structure::{Arrangement, Edge, Overlaps, Polycube, Tolerance, Violation};
 use std::time::Instant;
 
 mod corners;
+mod fits;
 mod front;
 mod regions;
 mod report;
 mod untangle;
 
 pub(crate) use corners::Corners;
+pub use fits::LARGEST_COORDINATE;
+pub(crate) use fits::{Misfit, check_fit, check_side};
 pub use front::Located;
 pub use report::{Report, Seconds};
 
@@ -63,6 +66,32 @@ pub struct Options {
 }
 
 impl Options {
+    /// Refuses what is out of its range, before anything is done.
+    ///
+    /// # Errors
+    /// [`ErrorKind::Option`].
+    pub(crate) fn check(&self) -> Result<()> {
+        let positive = |x: &f64| x.is_finite() && *x > 0.0;
+        if let Some(scale) = self.scale.filter(|x| !positive(x)) {
+            return Err(Error::new(ErrorKind::Option, format!("the scale {scale} is not a positive number")));
+        }
+        if let Some(simplicity) = self.simplicity.filter(|x| !(0.0..=1.0).contains(x)) {
+            return Err(no_simplicity(simplicity));
+        }
+        if let Some(limit) = self.max_displacement.filter(|x| x.is_nan() || *x < 0.0) {
+            return Err(Error::new(ErrorKind::Option, format!("{limit} is no bound for a displacement"))
+                .remedy("give a number of 0 or more, in units of the polycube"));
+        }
+        if let Some(limit) = self.max_distortion.filter(|x| x.is_nan() || *x < 1.0) {
+            return Err(Error::new(ErrorKind::Option, format!("{limit} is no bound for a distortion"))
+                .remedy("give a number of 1 or more; 1 is a similarity"));
+        }
+        if self.lambda_min.is_nan() {
+            return Err(Error::new(ErrorKind::Option, "lambda_min is not a number").remedy("give a number from 0 to 1"));
+        }
+        Ok(())
+    }
+
     fn alignment(&self, scale: f64, mesh: &Mesh) -> align::Options {
         align::Options {
             strategy: self.strategy,
@@ -97,7 +126,8 @@ pub struct Simplified {
 ///
 /// # Errors
 /// The first violation, with the number of others, as [`ErrorKind::Mesh`] or [`ErrorKind::Polycube`];
-/// [`ErrorKind::Mismatch`] if shape or labels do not fit.
+/// [`ErrorKind::Mismatch`] if shape or labels do not fit; [`ErrorKind::Option`] for a number that is no label;
+/// [`ErrorKind::Mesh`] for a shape that is mirrored and for coordinates beyond [`LARGEST_COORDINATE`].
 pub fn read_structure(input: &Input, tolerance: &Tolerance) -> Result<Polycube> {
     read_in_steps(input, tolerance, &Context::default())
 }
@@ -108,10 +138,20 @@ fn read_in_steps(input: &Input, tolerance: &Tolerance, context: &Context) -> Res
     let blame = |violations| if is_swapped(input, tolerance) { swapped(violations) } else { first_of(violations) };
     let polycube = Polycube::new(input.polycube, input.labels, tolerance).map_err(blame)?;
     context.tick(0.9)?;
-    match polycube.overlaps(&input.polycube.points) {
-        overlaps if overlaps.is_empty() => Ok(polycube),
-        overlaps => Err(first_of(overlaps)),
+    let points = &input.polycube.points;
+    let overlaps = Overlaps::of(&polycube);
+    context.tick(0.95)?;
+    if let Some(first) = overlaps.first(points) {
+        return Err(first_of_many(first, overlaps.len()));
     }
+    input.shape.map_or(Ok(()), |shape| check_side(&polycube, points, &shape.points))?;
+    context.tick(1.0)?;
+    Ok(polycube)
+}
+
+fn no_simplicity(simplicity: f64) -> Error {
+    Error::new(ErrorKind::Option, format!("{simplicity} is no simplicity"))
+        .remedy("give a number from 0, the least displacement, to 1, the fewest blocks")
 }
 
 /// Whether the mesh given as the shape is a polycube.
@@ -127,9 +167,10 @@ fn swapped(violations: Vec<Violation>) -> Error {
 /// lattice, and morphs the mesh onto the result.
 ///
 /// # Errors
-/// See [`read_structure`] and [`align::align`]; [`ErrorKind::Cancelled`].
+/// [`ErrorKind::Option`] for an option out of its range; those of [`read_structure`] and [`align::align`]; [`ErrorKind::Cancelled`].
 pub fn simplify(input: &Input, options: &Options, context: &Context) -> Result<Simplified> {
     let start = Instant::now();
+    options.check()?;
     let polycube = read_in_steps(input, &options.tolerance, &context.stage("structure", 0.0, 0.1))?;
     let scale = options.scale.unwrap_or_else(|| default_scale(&polycube, input.polycube));
     let structured = start.elapsed().as_secs_f64();
@@ -158,10 +199,15 @@ pub fn simplify(input: &Input, options: &Options, context: &Context) -> Result<S
 impl Simplified {
     fn check_input(&self, input: &Input) -> Result<()> {
         check_fit(input)?;
-        if input.polycube.points.len() == self.input.vertex_levels.len() {
-            return Ok(());
+        let Polycube { surface, vertex_levels, .. } = &self.input;
+        let polycube = input.polycube;
+        let is_own = || polycube.cells.boundary().is_ok_and(|faces| faces == surface.faces());
+        if polycube.points.len() != vertex_levels.len() || !is_own() {
+            return Err(Error::new(ErrorKind::Mismatch, "this is not the polycube that was simplified")
+                .remedy("give the meshes that the result was made from"));
         }
-        Err(Error::new(ErrorKind::Mismatch, "this is not the polycube that was simplified"))
+        input.shape.map_or(Ok(()), |shape| check_side(&self.input, &polycube.points, &shape.points))?;
+        Ok(())
     }
 
     /// The same result at another scale (lattice steps per unit of the input): the same block structure, on a finer or
@@ -215,23 +261,14 @@ fn finish(
     Ok(Simplified { input: polycube, polycube: result, levels, report, options: options.clone() })
 }
 
-/// Refuses a shape that does not go with the polycube or has coordinates that are no numbers.
-pub(crate) fn check_fit(input: &Input) -> Result<()> {
-    let Some(shape) = input.shape else { return Ok(()) };
-    if shape.cells != input.polycube.cells || shape.points.len() != input.polycube.points.len() {
-        return Err(Error::new(ErrorKind::Mismatch, "shape and polycube do not have the same vertices and cells")
-            .remedy("give the pair that one deformation connects, with the same numbering"));
-    }
-    let bad = (0..).zip(&shape.points).find(|(_, p)| !p.iter().all(|x| x.is_finite()));
-    let Some((vertex, _)) = bad else { return Ok(()) };
-    Err(Error::new(ErrorKind::Mesh, "a coordinate of the shape is not a finite number")
-        .at(Place::Vertex(vertex))
-        .remedy("repair or remove the vertex and export the mesh again"))
+fn first_of(violations: Vec<Violation>) -> Error {
+    let count = violations.len();
+    first_of_many(violations.into_iter().next().unwrap_or(Violation::Empty), count)
 }
 
-fn first_of(violations: Vec<Violation>) -> Error {
-    let others = violations.len().saturating_sub(1);
-    let first = violations.into_iter().next().unwrap_or(Violation::Empty);
+/// The first of `count` violations.
+fn first_of_many(first: Violation, count: usize) -> Error {
+    let others = count.saturating_sub(1);
     let mut error = Error::from(first);
     if others > 0 {
         error.message =
@@ -261,13 +298,34 @@ fn default_scale(polycube: &Polycube, mesh: &Mesh) -> f64 {
 /// [`simplify`] makes its result, for any other placement of the levels.
 ///
 /// # Errors
-/// Those of [`morph()`].
+/// [`ErrorKind::Mismatch`] for a mesh with another number of vertices, [`ErrorKind::Option`] for a placement that has not one finite
+/// number for each level or turns a polycube edge round; those of [`morph()`].
 pub fn fit(polycube: &Polycube, mesh: &Mesh, placement: &[f64], scale: f64, context: &Context) -> Result<Mesh> {
+    if mesh.points.len() != polycube.vertex_levels.len() {
+        return Err(Error::new(ErrorKind::Mismatch, "this is not the mesh that the polycube was read from"));
+    }
+    check_placement(polycube, placement)?;
     let points: Vec<Point> = mesh.points.iter().map(|p| p * scale).collect();
     let mut fitted = Mesh { points, cells: mesh.cells.clone() };
     let fixed = straight_edges(polycube, &fitted.points, placement);
     fitted.points = morph(&fitted, &fixed, context)?;
     Ok(fitted)
+}
+
+fn check_placement(polycube: &Polycube, placement: &[f64]) -> Result<()> {
+    let structure = &polycube.structure;
+    if placement.len() != structure.levels.len() || !placement.iter().all(|x| x.is_finite()) {
+        let message = format!("a placement is one finite number for each of {} levels", structure.levels.len());
+        return Err(Error::new(ErrorKind::Option, message));
+    }
+    let turned = |edge: &Edge| {
+        let [from, to] = structure.ends(edge).map(|l| placement[l as usize]);
+        from > to
+    };
+    let Some(edge) = structure.edges.iter().position(turned) else { return Ok(()) };
+    Err(Error::new(ErrorKind::Option, "the placement turns the edge round")
+        .at(Place::PolycubeEdge(edge as u32))
+        .remedy("keep the upper level of every edge above its lower one"))
 }
 
 /// What the morph must meet: corners and facets, and along every polycube edge the vertices stretched evenly between

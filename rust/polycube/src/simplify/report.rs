@@ -85,11 +85,10 @@ impl Report {
     /// Counts what the morph turned over and measures the map before and after.
     pub(super) fn judge(&mut self, input: &Input, polycube: &Polycube, mesh: &Mesh, context: &Context) -> Result<()> {
         let from = input.shape.unwrap_or(input.polycube);
-        let before = distortion(from, input.polycube)?;
+        let before = distortion(from, input.polycube);
         context.tick(0.3)?;
-        let after = distortion(from, mesh)?;
+        self.measured(before.and_then(|before| Ok([before, distortion(from, mesh)?])));
         context.tick(0.6)?;
-        self.distortion = Some([before, after]);
         self.list_flipped(polycube, mesh)?;
         context.tick(1.0)
     }
@@ -97,10 +96,22 @@ impl Report {
     /// Lists the flipped elements and measures the distortion anew, after `mesh` was changed.
     pub(crate) fn rejudge(&mut self, input: &Input, polycube: &Polycube, mesh: &Mesh) -> Result<()> {
         self.notes.retain(|note| !note.ends_with(FLIPPED_NOTE));
-        if let Some([_, after]) = &mut self.distortion {
-            *after = distortion(input.shape.unwrap_or(input.polycube), mesh)?;
+        if let Some([before, _]) = self.distortion {
+            let after = distortion(input.shape.unwrap_or(input.polycube), mesh);
+            self.measured(after.map(|after| [before, after]));
         }
         self.list_flipped(polycube, mesh)
+    }
+
+    /// Takes the distortion in. A result is worth having without it.
+    fn measured(&mut self, distortion: Result<[Distortion; 2]>) {
+        match distortion {
+            Ok(both) => self.distortion = Some(both),
+            Err(error) => {
+                self.distortion = None;
+                self.notes.push(format!("the distortion of the map could not be measured: {}", error.message));
+            }
+        }
     }
 
     fn list_flipped(&mut self, polycube: &Polycube, mesh: &Mesh) -> Result<()> {
