@@ -83,7 +83,7 @@ struct Checked {
 
 /// Checks whether a mesh is a valid polycube and reads its structure. A broken mesh is a result, not an exception.
 ///
-/// @throws Error mesh for buffers that are no mesh (an index out of range); mismatch when labels do not fit; cancelled.
+/// @throws Error mesh for buffers that are no mesh (an index out of range); cancelled.
 Checked check(const Input& input, const Tolerance& tolerance = {}, const Context& context = {});
 
 }  // namespace polycube
