@@ -91,7 +91,7 @@ struct Checked {
 /// if (checked.valid()) std::clog << checked.structure->counts.blocks << " blocks\n";
 /// @endcode
 ///
-/// @throws Error mesh for buffers that are no mesh (an index out of range); mismatch when labels do not fit; cancelled.
+/// @throws Error mesh for buffers that are no mesh (an index out of range); cancelled.
 Checked check(const Input& input, const Tolerance& tolerance = {}, const Context& context = {});
 
 }  // namespace polycube

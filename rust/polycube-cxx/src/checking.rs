@@ -7,7 +7,7 @@ use crate::options::tolerance;
 use crate::run::run;
 use polycube::Place;
 use polycube::layout::{Pieces, count};
-use polycube::mesh::{Face, Mesh};
+use polycube::mesh::Mesh;
 use polycube::simplify::{Input, read_structure};
 use polycube::structure::{Arrangement, Corner, Edge, Polycube};
 use polycube::validate::{Finding, Subject, validate};
@@ -30,7 +30,10 @@ pub fn check(input: &InputView, data: &ToleranceData, observer: &Observer) -> Re
 }
 
 fn violations(findings: Vec<Finding>, input: &Input) -> Vec<ViolationData> {
-    let faces = input.polycube.cells.boundary().unwrap_or_default();
+    if findings.is_empty() {
+        return Vec::new();
+    }
+    let around = Around::new(input.polycube);
     let violation = |finding: Finding| ViolationData {
         rule: finding.rule.into(),
         in_shape: finding.mesh == Subject::Shape,
@@ -38,7 +41,7 @@ fn violations(findings: Vec<Finding>, input: &Input) -> Vec<ViolationData> {
         remedy: finding.remedy,
         place: place(finding.element),
         at: finding.at.map_or_else(Vec::new, Vec::from),
-        faces: finding.element.map_or_else(Vec::new, |place| faces_at(place, &faces)),
+        faces: finding.element.map_or_else(Vec::new, |place| around.faces(place)),
     };
     findings.into_iter().map(violation).collect()
 }
@@ -48,17 +51,32 @@ fn place(place: Option<Place>) -> PlaceData {
     PlaceData { element, index, second }
 }
 
-/// The boundary faces that have all vertices of an element.
-fn faces_at(place: Place, faces: &[Face]) -> Vec<u32> {
-    let with = |vertices: &[u32]| {
-        let has = |f: &Face| vertices.iter().all(|v| f.vertices().contains(v));
-        (0..).zip(faces).filter(|(_, f)| has(f)).map(|(i, _)| i).collect()
-    };
-    match place {
-        Place::Vertex(v) => with(&[v]),
-        Place::Edge(a, b) => with(&[a, b]),
-        Place::Face(i) => vec![i],
-        Place::Cell(_) | Place::PolycubeEdge(_) | Place::Facet(_) | Place::Line(_) => Vec::new(),
+/// The boundary faces around each vertex, ascending.
+struct Around(Vec<Vec<u32>>);
+
+impl Around {
+    fn new(mesh: &Mesh) -> Self {
+        let mut around = vec![Vec::new(); mesh.points.len()];
+        for (i, face) in (0..).zip(mesh.cells.boundary().unwrap_or_default()) {
+            for &v in face.vertices() {
+                // A face may name a vertex twice.
+                if let Some(faces) = around.get_mut(v as usize).filter(|faces| faces.last() != Some(&i)) {
+                    faces.push(i);
+                }
+            }
+        }
+        Self(around)
+    }
+
+    /// The boundary faces that have all vertices of an element.
+    fn faces(&self, place: Place) -> Vec<u32> {
+        let at = |v: u32| self.0.get(v as usize).map_or(&[][..], Vec::as_slice);
+        match place {
+            Place::Vertex(v) => at(v).to_vec(),
+            Place::Edge(a, b) => at(a).iter().copied().filter(|i| at(b).binary_search(i).is_ok()).collect(),
+            Place::Face(i) => vec![i],
+            Place::Cell(_) | Place::PolycubeEdge(_) | Place::Facet(_) | Place::Line(_) => Vec::new(),
+        }
     }
 }
 
@@ -94,4 +112,23 @@ fn corner(&Corner { vertex, valence, levels }: &Corner) -> CornerData {
 
 fn edge((&Edge { axis, corners, facets }, vertices): (&Edge, &Vec<u32>)) -> EdgeData {
     EdgeData { axis: axis as u32, corners, facets, vertices: vertices.clone() }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use polycube::mesh::{Cells, Point};
+
+    #[test]
+    fn the_faces_around_vertices_and_edges_are_found() {
+        let points = vec![Point::origin(); 6];
+        let mesh = Mesh { points, cells: Cells::Quads(vec![[0, 1, 2, 3], [1, 4, 5, 2], [0, 0, 3, 9]]) };
+        let around = Around::new(&mesh);
+        let faces = |place| around.faces(place);
+        assert_eq!(faces(Place::Vertex(0)), [0, 2]);
+        assert_eq!(faces(Place::Edge(2, 1)), [0, 1]);
+        assert_eq!(faces(Place::Edge(0, 3)), [0, 2]);
+        assert_eq!(faces(Place::Face(7)), [7]);
+        assert!(faces(Place::Vertex(9)).is_empty() && faces(Place::Edge(0, 9)).is_empty());
+    }
 }

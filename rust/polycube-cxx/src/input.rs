@@ -13,17 +13,14 @@ pub struct Owned {
 }
 
 impl Owned {
-    /// Copies the buffers.
+    /// Copies the buffers. Whether they fit each other is for the core to say.
     ///
     /// # Errors
-    /// [`ErrorKind::Mesh`] for buffers that are no mesh, [`ErrorKind::Mismatch`] for labels that do not fit.
+    /// [`ErrorKind::Mesh`] for buffers that are no mesh.
     pub fn new(view: &InputView) -> Result<Self> {
         let polycube = mesh(&view.polycube)?;
         let shape = view.has_shape.then(|| mesh(&view.shape)).transpose()?;
-        if let Some(shape) = &shape {
-            check_finite(&shape.points)?;
-        }
-        let labels = view.has_labels.then(|| labels(view.labels, &polycube)).transpose()?;
+        let labels = view.has_labels.then(|| view.labels.to_vec());
         Ok(Self { polycube, shape, labels })
     }
 
@@ -81,24 +78,4 @@ fn check_indices(cells: &Cells, points: usize) -> Result<()> {
     Err(Error::new(ErrorKind::Mesh, format!("the cell names a vertex that is not among the {points} given"))
         .at(Place::Cell(u32::try_from(cell).unwrap_or(u32::MAX)))
         .remedy("count vertices from 0, and give all of them"))
-}
-
-fn check_finite(points: &[Point]) -> Result<()> {
-    let bad = (0..).zip(points).find(|(_, p)| !p.iter().all(|x| x.is_finite()));
-    let Some((vertex, _)) = bad else { return Ok(()) };
-    Err(Error::new(ErrorKind::Mesh, "a coordinate of the shape is not a finite number").at(Place::Vertex(vertex)))
-}
-
-fn labels(labels: &[i8], mesh: &Mesh) -> Result<Vec<i8>> {
-    let faces = mesh.cells.boundary()?.len();
-    if labels.len() != faces {
-        let message = format!("{} labels for {faces} boundary faces", labels.len());
-        return Err(Error::new(ErrorKind::Mismatch, message).remedy("give one label for each boundary face"));
-    }
-    match (0..).zip(labels).find(|(_, l)| !(-1..=5).contains(*l)) {
-        None => Ok(labels.to_vec()),
-        Some((face, label)) => Err(Error::new(ErrorKind::Option, format!("{label} is no label"))
-            .at(Place::Face(face))
-            .remedy("use 0 to 5 for +X -X +Y -Y +Z -Z, or -1 for \"by the normal\"")),
-    }
 }

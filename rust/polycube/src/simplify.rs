@@ -1,20 +1,25 @@
 //! The whole method: read the structure, align it, morph the mesh onto the result, and say what happened.
 
-use crate::align::{self, Alignment, Effort, Guides, LowerBound, Round, SolverKind, Strategy, TradeOff};
+use crate::align::{self, Alignment, Effort, Guides, SolverKind, Strategy};
 use crate::context::Context;
 use crate::error::{Error, ErrorKind, Place, Result};
-use crate::layout::{Counts, Objective, count};
-use crate::map::{Distortion, Flipped, distortion, flipped, morph};
+use crate::layout::{Objective, count};
+use crate::map::morph;
 use crate::mesh::{Mesh, Point};
-use crate::structure::{Arrangement, Deviation, Polycube, Tolerance, Violation, placement_of};
+use crate::structure::{Arrangement, Edge, Overlaps, Polycube, Tolerance, Violation, placement_of};
 use std::time::Instant;
 
 mod corners;
+mod fits;
 mod front;
+mod report;
 mod untangle;
 
 pub(crate) use corners::Corners;
+pub use fits::LARGEST_COORDINATE;
+pub(crate) use fits::{Misfit, check_fit, check_side};
 pub use front::Located;
+pub use report::{Report, Seconds};
 pub(crate) use untangle::untangle;
 
 /// What is simplified.
@@ -61,6 +66,32 @@ pub struct Options {
 }
 
 impl Options {
+    /// Refuses what is out of its range, before anything is done.
+    ///
+    /// # Errors
+    /// [`ErrorKind::Option`].
+    pub(crate) fn check(&self) -> Result<()> {
+        let positive = |x: &f64| x.is_finite() && *x > 0.0;
+        if let Some(scale) = self.scale.filter(|x| !positive(x)) {
+            return Err(Error::new(ErrorKind::Option, format!("the scale {scale} is not a positive number")));
+        }
+        if let Some(simplicity) = self.simplicity.filter(|x| !(0.0..=1.0).contains(x)) {
+            return Err(no_simplicity(simplicity));
+        }
+        if let Some(limit) = self.max_displacement.filter(|x| x.is_nan() || *x < 0.0) {
+            return Err(Error::new(ErrorKind::Option, format!("{limit} is no bound for a displacement"))
+                .remedy("give a number of 0 or more, in units of the polycube"));
+        }
+        if let Some(limit) = self.max_distortion.filter(|x| x.is_nan() || *x < 1.0) {
+            return Err(Error::new(ErrorKind::Option, format!("{limit} is no bound for a distortion"))
+                .remedy("give a number of 1 or more; 1 is a similarity"));
+        }
+        if self.lambda_min.is_nan() {
+            return Err(Error::new(ErrorKind::Option, "lambda_min is not a number").remedy("give a number from 0 to 1"));
+        }
+        Ok(())
+    }
+
     fn alignment(&self, scale: f64, mesh: &Mesh) -> align::Options {
         align::Options {
             strategy: self.strategy,
@@ -91,139 +122,12 @@ pub struct Simplified {
     pub options: Options,
 }
 
-/// What was done, for people and programs.
-#[derive(Clone, Debug, PartialEq, serde::Serialize)]
-pub struct Report {
-    /// How the levels found their places.
-    pub strategy: Strategy,
-    /// Lattice steps per unit of the input.
-    pub scale: f64,
-    /// Whether the result is a valid polycube. Only `naive` can give one that is not.
-    pub valid: bool,
-    /// Counts of the input.
-    pub before: Counts,
-    /// Counts of the result, if it is valid.
-    pub after: Option<Counts>,
-    /// The rounds of Algorithm 1.
-    pub rounds: Vec<Round>,
-    /// The trade-off between the count and displacement that the strategy `best` met, from the fewest blocks on.
-    pub front: Vec<TradeOff>,
-    /// Which point of the front the result is, from 0; nothing if it is none.
-    pub chosen: Option<usize>,
-    /// How far the count can go down at most, as far as the strategy `best` could prove it.
-    pub bound: Option<LowerBound>,
-    /// Time spent, in seconds.
-    pub seconds: Seconds,
-    /// The farthest that a corner moved, in units of the input polycube.
-    pub max_displacement: f64,
-    /// Elements of the morphed mesh that are turned over or flat: cells of a volume and boundary faces.
-    pub flipped_elements: usize,
-    /// Which they are.
-    pub flipped: Flipped,
-    /// How far the input was from an exact polycube.
-    pub deviation: Deviation,
-    /// Distortion of the map from the shape to the polycube, before and after. Without a shape the polycube as it came
-    /// stands for it.
-    pub distortion: Option<[Distortion; 2]>,
-    /// What was not possible or not as asked, in plain words.
-    pub notes: Vec<String>,
-}
-
-impl Report {
-    /// What is known before the mesh is morphed.
-    fn new(polycube: &Polycube, alignment: &Alignment, strategy: Strategy, scale: f64) -> Self {
-        let notes = match alignment.broken.len() {
-            0 => Vec::new(),
-            n => vec![format!("rounding to the lattice made the surface touch or cross itself in {n} places")],
-        };
-        Self {
-            strategy,
-            scale,
-            valid: alignment.after.is_some(),
-            before: alignment.before,
-            after: alignment.after,
-            rounds: alignment.rounds.clone(),
-            front: alignment.front.clone(),
-            chosen: alignment.chosen,
-            bound: alignment.bound,
-            seconds: Seconds::default(),
-            max_displacement: max_displacement(polycube, &alignment.levels, scale),
-            flipped_elements: 0,
-            flipped: Flipped::default(),
-            deviation: polycube.deviation,
-            distortion: None,
-            notes,
-        }
-    }
-
-    fn note_displacement(&mut self, options: &Options) {
-        let least = self.max_displacement;
-        if let Some(limit) = options.max_displacement.filter(|&l| l < least) {
-            let note = format!("no result found moves the corners by {limit} or less; this one moves them by {least}");
-            self.notes.push(note);
-        }
-    }
-
-    /// Lists the flipped elements and measures the distortion anew, after `mesh` was changed.
-    pub(crate) fn rejudge(&mut self, input: &Input, polycube: &Polycube, mesh: &Mesh) -> Result<()> {
-        self.notes.retain(|note| !note.ends_with(FLIPPED_NOTE));
-        if let Some([_, after]) = &mut self.distortion {
-            *after = distortion(input.shape.unwrap_or(input.polycube), mesh)?;
-        }
-        self.list_flipped(polycube, mesh)
-    }
-
-    fn list_flipped(&mut self, polycube: &Polycube, mesh: &Mesh) -> Result<()> {
-        let labels: Vec<i8> = polycube.labels().map(|l| l.index() as i8).collect();
-        self.flipped = flipped(mesh, &labels)?;
-        self.flipped_elements = self.flipped.cells.len() + self.flipped.faces.len();
-        if self.flipped_elements > 0 {
-            self.notes.push(format!("{}{FLIPPED_NOTE}", self.flipped_elements));
-        }
-        Ok(())
-    }
-}
-
-/// What the note about flipped elements says after their number.
-const FLIPPED_NOTE: &str = " elements of the morphed mesh are turned over or flat";
-
-/// Time spent in each stage, in seconds.
-#[derive(Clone, Copy, Debug, Default, PartialEq, serde::Serialize)]
-pub struct Seconds {
-    /// Reading the files.
-    pub read: f64,
-    /// Finding and checking the structure.
-    pub structure: f64,
-    /// Pairing, aligning, counting.
-    pub align: f64,
-    /// Morphing the mesh and judging it; for a remeshing, making its map one to one, too.
-    pub morph: f64,
-    /// Making the meshes of a remeshing.
-    #[serde(skip_serializing_if = "is_zero")]
-    pub mesh: f64,
-    /// Optimising its hexahedra.
-    #[serde(skip_serializing_if = "is_zero")]
-    pub optimise: f64,
-    /// Measuring them.
-    #[serde(skip_serializing_if = "is_zero")]
-    pub measure: f64,
-    /// Writing the files.
-    pub write: f64,
-    /// All of it.
-    pub total: f64,
-}
-
-/// Whether no time was spent.
-#[allow(clippy::trivially_copy_pass_by_ref, reason = "serde passes a reference")]
-fn is_zero(seconds: &f64) -> bool {
-    *seconds == 0.0
-}
-
 /// Reads the structure of a valid polycube and checks that shape and labels fit it.
 ///
 /// # Errors
 /// The first violation, with the number of others, as [`ErrorKind::Mesh`] or [`ErrorKind::Polycube`];
-/// [`ErrorKind::Mismatch`] if shape or labels do not fit.
+/// [`ErrorKind::Mismatch`] if shape or labels do not fit; [`ErrorKind::Option`] for a number that is no label;
+/// [`ErrorKind::Mesh`] for a shape that is mirrored and for coordinates beyond [`LARGEST_COORDINATE`].
 pub fn read_structure(input: &Input, tolerance: &Tolerance) -> Result<Polycube> {
     read_in_steps(input, tolerance, &Context::default())
 }
@@ -234,10 +138,20 @@ fn read_in_steps(input: &Input, tolerance: &Tolerance, context: &Context) -> Res
     let blame = |violations| if is_swapped(input, tolerance) { swapped(violations) } else { first_of(violations) };
     let polycube = Polycube::new(input.polycube, input.labels, tolerance).map_err(blame)?;
     context.tick(0.9)?;
-    match polycube.overlaps(&input.polycube.points) {
-        overlaps if overlaps.is_empty() => Ok(polycube),
-        overlaps => Err(first_of(overlaps)),
+    let points = &input.polycube.points;
+    let overlaps = Overlaps::of(&polycube);
+    context.tick(0.95)?;
+    if let Some(first) = overlaps.first(points) {
+        return Err(first_of_many(first, overlaps.len()));
     }
+    input.shape.map_or(Ok(()), |shape| check_side(&polycube, points, &shape.points))?;
+    context.tick(1.0)?;
+    Ok(polycube)
+}
+
+fn no_simplicity(simplicity: f64) -> Error {
+    Error::new(ErrorKind::Option, format!("{simplicity} is no simplicity"))
+        .remedy("give a number from 0, the least displacement, to 1, the fewest blocks")
 }
 
 /// Whether the mesh given as the shape is a polycube.
@@ -253,9 +167,10 @@ fn swapped(violations: Vec<Violation>) -> Error {
 /// lattice, and morphs the mesh onto the result.
 ///
 /// # Errors
-/// See [`read_structure`] and [`align::align`]; [`ErrorKind::Cancelled`].
+/// [`ErrorKind::Option`] for an option out of its range; those of [`read_structure`] and [`align::align`]; [`ErrorKind::Cancelled`].
 pub fn simplify(input: &Input, options: &Options, context: &Context) -> Result<Simplified> {
     let start = Instant::now();
+    options.check()?;
     let polycube = read_in_steps(input, &options.tolerance, &context.stage("structure", 0.0, 0.1))?;
     let scale = options.scale.unwrap_or_else(|| default_scale(&polycube, input.polycube));
     let structured = start.elapsed().as_secs_f64();
@@ -284,10 +199,15 @@ pub fn simplify(input: &Input, options: &Options, context: &Context) -> Result<S
 impl Simplified {
     fn check_input(&self, input: &Input) -> Result<()> {
         check_fit(input)?;
-        if input.polycube.points.len() == self.input.vertex_levels.len() {
-            return Ok(());
+        let Polycube { surface, vertex_levels, .. } = &self.input;
+        let polycube = input.polycube;
+        let is_own = || polycube.cells.boundary().is_ok_and(|faces| faces == surface.faces());
+        if polycube.points.len() != vertex_levels.len() || !is_own() {
+            return Err(Error::new(ErrorKind::Mismatch, "this is not the polycube that was simplified")
+                .remedy("give the meshes that the result was made from"));
         }
-        Err(Error::new(ErrorKind::Mismatch, "this is not the polycube that was simplified"))
+        input.shape.map_or(Ok(()), |shape| check_side(&self.input, &polycube.points, &shape.points))?;
+        Ok(())
     }
 
     /// The same result at another scale (lattice steps per unit of the input): the same block structure, on a finer or
@@ -335,29 +255,20 @@ fn finish(
             let shape = input.shape.unwrap_or(input.polycube);
             untangle(&polycube, &mut mesh, shape, &context.stage("untangle", 0.6, 0.9))?;
         }
-        judge(&mut report, input, &polycube, &mesh, &context.stage("judge", 0.9, 1.0))?;
+        report.judge(input, &polycube, &mesh, &context.stage("judge", 0.9, 1.0))?;
         result = Some(mesh);
     }
     Ok(Simplified { input: polycube, polycube: result, levels, report, options: options.clone() })
 }
 
-/// Refuses a shape that does not go with the polycube or has coordinates that are no numbers.
-pub(crate) fn check_fit(input: &Input) -> Result<()> {
-    let Some(shape) = input.shape else { return Ok(()) };
-    if shape.cells != input.polycube.cells || shape.points.len() != input.polycube.points.len() {
-        return Err(Error::new(ErrorKind::Mismatch, "shape and polycube do not have the same vertices and cells")
-            .remedy("give the pair that one deformation connects, with the same numbering"));
-    }
-    let bad = (0..).zip(&shape.points).find(|(_, p)| !p.iter().all(|x| x.is_finite()));
-    let Some((vertex, _)) = bad else { return Ok(()) };
-    Err(Error::new(ErrorKind::Mesh, "a coordinate of the shape is not a finite number")
-        .at(Place::Vertex(vertex))
-        .remedy("repair or remove the vertex and export the mesh again"))
+fn first_of(violations: Vec<Violation>) -> Error {
+    let count = violations.len();
+    first_of_many(violations.into_iter().next().unwrap_or(Violation::Empty), count)
 }
 
-fn first_of(violations: Vec<Violation>) -> Error {
-    let others = violations.len().saturating_sub(1);
-    let first = violations.into_iter().next().unwrap_or(Violation::Empty);
+/// The first of `count` violations.
+fn first_of_many(first: Violation, count: usize) -> Error {
+    let others = count.saturating_sub(1);
     let mut error = Error::from(first);
     if others > 0 {
         error.message =
@@ -387,13 +298,34 @@ fn default_scale(polycube: &Polycube, mesh: &Mesh) -> f64 {
 /// [`simplify`] makes its result, for any other placement of the levels.
 ///
 /// # Errors
-/// Those of [`morph()`].
+/// [`ErrorKind::Mismatch`] for a mesh with another number of vertices, [`ErrorKind::Option`] for a placement that has not one finite
+/// number for each level or turns a polycube edge round; those of [`morph()`].
 pub fn fit(polycube: &Polycube, mesh: &Mesh, placement: &[f64], scale: f64, context: &Context) -> Result<Mesh> {
+    if mesh.points.len() != polycube.vertex_levels.len() {
+        return Err(Error::new(ErrorKind::Mismatch, "this is not the mesh that the polycube was read from"));
+    }
+    check_placement(polycube, placement)?;
     let points: Vec<Point> = mesh.points.iter().map(|p| p * scale).collect();
     let mut fitted = Mesh { points, cells: mesh.cells.clone() };
     let fixed = straight_edges(polycube, &fitted.points, placement);
     fitted.points = morph(&fitted, &fixed, context)?;
     Ok(fitted)
+}
+
+fn check_placement(polycube: &Polycube, placement: &[f64]) -> Result<()> {
+    let structure = &polycube.structure;
+    if placement.len() != structure.levels.len() || !placement.iter().all(|x| x.is_finite()) {
+        let message = format!("a placement is one finite number for each of {} levels", structure.levels.len());
+        return Err(Error::new(ErrorKind::Option, message));
+    }
+    let turned = |edge: &Edge| {
+        let [from, to] = structure.ends(edge).map(|l| placement[l as usize]);
+        from > to
+    };
+    let Some(edge) = structure.edges.iter().position(turned) else { return Ok(()) };
+    Err(Error::new(ErrorKind::Option, "the placement turns the edge round")
+        .at(Place::PolycubeEdge(edge as u32))
+        .remedy("keep the upper level of every edge above its lower one"))
 }
 
 /// What the morph must meet: corners and facets, and along every polycube edge the vertices stretched evenly between
@@ -411,21 +343,4 @@ fn straight_edges(polycube: &Polycube, points: &[Point], placement: &[f64]) -> V
         }
     }
     fixed
-}
-
-fn max_displacement(polycube: &Polycube, levels: &[i64], scale: f64) -> f64 {
-    let after: Vec<f64> = levels.iter().map(|&x| x as f64 / scale).collect();
-    polycube.structure.max_displacement(&polycube.placement, &after)
-}
-
-/// Counts what the morph turned over and measures the map before and after.
-fn judge(report: &mut Report, input: &Input, polycube: &Polycube, mesh: &Mesh, context: &Context) -> Result<()> {
-    let from = input.shape.unwrap_or(input.polycube);
-    let before = distortion(from, input.polycube)?;
-    context.tick(0.3)?;
-    let after = distortion(from, mesh)?;
-    context.tick(0.6)?;
-    report.distortion = Some([before, after]);
-    report.list_flipped(polycube, mesh)?;
-    context.tick(1.0)
 }

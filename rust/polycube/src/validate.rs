@@ -1,9 +1,9 @@
 //! Everything that is wrong with a polycube and its shape, for people and programs.
 
-use crate::error::{Error, ErrorKind, Place};
+use crate::error::{Error, Place};
 use crate::map::flipped;
 use crate::mesh::{Face, Mesh, Point};
-use crate::simplify::{Input, check_fit};
+use crate::simplify::{Input, Misfit, check_fit, check_side};
 use crate::structure::{Polycube, Tolerance, Violation};
 
 /// Which of the two meshes a finding is about.
@@ -19,7 +19,8 @@ pub enum Subject {
 /// Something wrong, with its place and remedy.
 #[derive(Clone, Debug, PartialEq, serde::Serialize)]
 pub struct Finding {
-    /// A short name of the rule broken, in `snake_case`: that of a [`Violation`], `flipped_face` or `mismatch`.
+    /// A short name of the rule broken, in `snake_case`: that of a [`Violation`], `flipped_face`, `mismatch`,
+    /// `bad_label`, `too_large` or `mirrored`.
     pub rule: &'static str,
     /// Which mesh is concerned.
     pub mesh: Subject,
@@ -56,35 +57,51 @@ pub struct Finding {
 /// # Ok::<(), polycube::Error>(())
 /// ```
 pub fn validate(input: &Input, tolerance: &Tolerance) -> Vec<Finding> {
-    let mut findings = polycube(input, tolerance);
-    let Some(shape) = input.shape else {
-        return findings;
-    };
-    if let Err(Error { kind, place, message, remedy, .. }) = check_fit(input) {
-        let rule = if kind == ErrorKind::Mismatch { "mismatch" } else { "not_finite" };
-        findings.push(Finding { rule, mesh: Subject::Shape, element: place, at: None, message, remedy });
+    let misfit = check_fit(input).err();
+    let of_polycube = misfit.as_ref().is_some_and(|m| !m.in_shape);
+    let (mut findings, polycube) = if of_polycube { (Vec::new(), None) } else { polycube(input, tolerance) };
+    let sides = |polycube: Polycube, shape: &Mesh| check_side(&polycube, &input.polycube.points, &shape.points).err();
+    let fits = misfit.is_none();
+    let mirrored = polycube.zip(input.shape).filter(|_| fits).and_then(|(polycube, shape)| sides(polycube, shape));
+    // Of a mirrored volume all cells are inverted.
+    let is_mirrored = mirrored.is_some();
+    findings.extend(misfit.or(mirrored).map(|misfit| misplaced(misfit, input)));
+    if let Some(shape) = input.shape.filter(|_| !is_mirrored) {
+        let cells = flipped(shape, &[]).map(|f| f.cells).unwrap_or_default();
+        findings.extend(Middles::new(shape).findings(inverted(&cells), Subject::Shape));
     }
-    let cells = flipped(shape, &[]).map(|f| f.cells).unwrap_or_default();
-    findings.extend(Middles::new(shape).findings(inverted(&cells), Subject::Shape));
     findings
 }
 
-fn polycube(input: &Input, tolerance: &Tolerance) -> Vec<Finding> {
+/// What keeps the parts of `input` from going together.
+fn misplaced(misfit: Misfit, input: &Input) -> Finding {
+    let Misfit { rule, in_shape, error } = misfit;
+    let mesh = if in_shape { Subject::Shape } else { Subject::Polycube };
+    let own = if in_shape { input.shape.unwrap_or(input.polycube) } else { input.polycube };
+    let Error { place: element, message, remedy, .. } = error;
+    // A place that is not a finite number is none.
+    let at = element.and_then(|place| own.middle(place)).filter(|at| at.iter().all(|x| x.is_finite()));
+    Finding { rule, mesh, element, at, message, remedy }
+}
+
+/// What is wrong with the polycube, and its structure if that can be read and nothing touches.
+fn polycube(input: &Input, tolerance: &Tolerance) -> (Vec<Finding>, Option<Polycube>) {
     let mesh = input.polycube;
-    let (mut violations, labels) = match Polycube::new(mesh, input.labels, tolerance) {
+    let (mut violations, polycube, labels) = match Polycube::new(mesh, input.labels, tolerance) {
         Ok(polycube) => {
             let labels: Vec<i8> = polycube.labels().map(|l| l.index() as i8).collect();
-            (polycube.overlaps(&mesh.points), labels)
+            let overlaps = polycube.overlaps(&mesh.points);
+            let sound = overlaps.is_empty().then_some(polycube);
+            (overlaps, sound, labels)
         }
-        Err(violations) => (violations, Vec::new()),
+        Err(violations) => (violations, None, Vec::new()),
     };
     let flipped = flipped(mesh, &labels).unwrap_or_default();
-    let fresh: Vec<_> = inverted(&flipped.cells).filter(|v| !violations.contains(v)).collect();
-    violations.extend(fresh);
+    violations.extend(inverted(&flipped.cells));
     let middles = Middles::new(mesh);
     let mut findings = middles.findings(violations.into_iter(), Subject::Polycube);
     findings.extend(flipped.faces.iter().map(|&face| middles.flipped_face(face)));
-    findings
+    (findings, polycube)
 }
 
 fn inverted(cells: &[u32]) -> impl Iterator<Item = Violation> + '_ {
@@ -155,6 +172,7 @@ fn mean(mesh: &Mesh, vertices: &[u32]) -> Option<[f64; 3]> {
 mod tests {
     use super::*;
     use crate::context::Context;
+    use crate::error::ErrorKind;
     use crate::generate::{Example, example};
     use crate::mesh::CellKind;
     use crate::simplify::{Options, simplify};

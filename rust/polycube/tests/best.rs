@@ -65,6 +65,27 @@ fn the_front_trades_blocks_for_displacement() {
     assert!(moved(&bounded) <= limit, "{} > {limit}", moved(&bounded));
 }
 
+#[test]
+fn the_front_ends_at_the_input_on_a_lattice_that_holds_it() {
+    // Two arms, one of which begins and ends a quarter of the shortest edge above the other.
+    let boxes = [([0, 0, 0], [8, 8, 13]), ([-4, 0, 4], [0, 8, 8]), ([8, 0, 5], [12, 8, 9])];
+    let boxes: Vec<Cuboid> = boxes.iter().map(|b| Cuboid::new(b.0, b.1)).collect();
+    let polycube = read(&coarse(&Voxels::from_boxes(&boxes).expect("boxes"), CellKind::Quads));
+    let whole: Vec<i64> = polycube.placement.iter().map(|&x| x as i64).collect();
+    let coarsest = run(&polycube, &Options::default());
+    assert!(counted(&coarsest, Objective::BlocksPadded) < coarsest.before.blocks_padded);
+    let near = [
+        Options { simplicity: 0.0, ..Options::default() },
+        Options { max_displacement: Some(0.01), ..Options::default() },
+    ];
+    for options in near {
+        let found = run(&polycube, &options);
+        assert_eq!((&found.levels, found.after), (&whole, Some(found.before)), "{options:?}");
+        assert_eq!(found.chosen, Some(found.front.len() - 1));
+        assert_eq!(found.front[found.front.len() - 1].displacement, 0.0);
+    }
+}
+
 /// The largest step between points of a front that come next to each other, as a part of all the way from the fewest blocks to the most.
 fn largest_step(result: &Alignment) -> f64 {
     let counts: Vec<usize> = result.front.iter().map(|p| p.count).collect();

@@ -71,7 +71,8 @@ pub struct LowerBound {
 pub struct TradeOff {
     /// What the objective counts.
     pub count: usize,
-    /// Root mean square of the corners' displacement, in units of the input, at the finest lattice.
+    /// Root mean square of the corners' displacement, in units of the input, on a lattice of half the shortest edge; 0 for the input
+    /// itself, where a finer lattice leaves its levels where they are.
     pub displacement: f64,
     /// The number of every level's plane, from 1.
     pub order: Vec<u16>,
@@ -191,6 +192,11 @@ impl TradeOff {
     /// The number of the point that `simplicity` asks for, from 1 (the first of `count` points) to 0 (the last).
     pub fn index(simplicity: f64, count: usize) -> usize {
         ((1.0 - simplicity.clamp(0.0, 1.0)) * (count as f64 - 1.0)).round() as usize
+    }
+
+    /// Whether it is the input, whose order is `own`, and where the input lies.
+    fn is_input(&self, own: &Ranks) -> bool {
+        self.displacement == 0.0 && self.order == own.of_level
     }
 
     fn ranks(&self, structure: &Structure) -> Ranks {

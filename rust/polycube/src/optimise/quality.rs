@@ -14,7 +14,26 @@ pub(super) fn edges(points: &[Point], corner: [u32; 4]) -> Matrix3<f64> {
 /// `det(a, b, c) / (|a| |b| |c|)` of three edges, in −1..1; 0 where an edge has no length.
 pub(super) fn corner_jacobian(edges: &Matrix3<f64>) -> f64 {
     let lengths = edges.column(0).norm() * edges.column(1).norm() * edges.column(2).norm();
-    if lengths > 0.0 { edges.determinant() / lengths } else { 0.0 }
+    let determinant = edges.determinant();
+    match lengths.is_finite() && determinant.is_finite() {
+        true if lengths > 0.0 => determinant / lengths,
+        true => 0.0,
+        false => directions(edges).determinant(),
+    }
+}
+
+/// Edges as unit vectors, however long they are.
+fn directions(edges: &Matrix3<f64>) -> Matrix3<f64> {
+    let direction = |i: usize| {
+        let short = edges.column(i) / edges.column(i).amax();
+        short / short.norm()
+    };
+    Matrix3::from_columns(&[direction(0), direction(1), direction(2)])
+}
+
+/// A quality that is not a number is as bad as can be.
+fn or_worst(quality: f64) -> f64 {
+    if quality.is_nan() { -1.0 } else { quality }
 }
 
 /// The scaled Jacobian of a hexahedron in VTK's order, in −1..1: the minimum over its eight corners
@@ -26,7 +45,7 @@ pub(super) fn corner_jacobian(edges: &Matrix3<f64>) -> f64 {
 /// # Panics
 /// When a vertex is not among `points`.
 pub fn scaled_jacobian(points: &[Point], hex: &[u32; 8]) -> f64 {
-    let quality = |corner: [u32; 4]| corner_jacobian(&edges(points, corner));
+    let quality = |corner: [u32; 4]| or_worst(corner_jacobian(&edges(points, corner)));
     corner_tetrahedra(hex).into_iter().map(quality).fold(1.0, f64::min)
 }
 
@@ -40,7 +59,8 @@ pub fn tetrahedron_scaled_jacobian(points: &[Point], tet: &[u32; 4]) -> f64 {
     let product = |i: usize| -> f64 { (0..4).filter(|j| *j != i).map(|j| (at[i] - at[j]).norm()).product() };
     let largest = (0..4).map(product).fold(0.0, f64::max);
     let det = edges(points, *tet).determinant();
-    if largest > 0.0 { (std::f64::consts::SQRT_2 * det / largest).clamp(-1.0, 1.0) } else { 0.0 }
+    let quality = std::f64::consts::SQRT_2 * det / largest;
+    if largest == 0.0 && det == 0.0 { 0.0 } else { or_worst(quality.clamp(-1.0, 1.0)) }
 }
 
 /// Verdict's scaled Jacobian of a quadrilateral, in −1..1: the minimum over its corners of the sine of their angle, seen
@@ -54,7 +74,7 @@ pub fn quadrilateral_scaled_jacobian(points: &[Point], quad: &[u32; 4]) -> f64 {
     let corner = |i: usize| -> f64 {
         let (next, last) = (at[(i + 1) % 4] - at[i], at[(i + 3) % 4] - at[i]);
         let lengths = next.norm() * last.norm() * normal.norm();
-        if lengths > 0.0 { next.cross(&last).dot(&normal) / lengths } else { 0.0 }
+        if lengths == 0.0 { 0.0 } else { or_worst(next.cross(&last).dot(&normal) / lengths) }
     };
     (0..4).map(corner).fold(1.0, f64::min)
 }
@@ -162,6 +182,24 @@ mod tests {
         let at = [[0, 0, 0], [1, 0, 0], [1, 1, 0], [0, 1, 0], [0, 0, 1], [1, 0, 1], [1, 1, 1], [0, 1, 1]];
         let points = at.iter().map(|p| Point::from(p.map(f64::from))).collect();
         Mesh { points, cells: Cells::Hexahedra(vec![[0, 1, 2, 3, 4, 5, 6, 7]]) }
+    }
+
+    #[test]
+    fn a_quality_does_not_depend_on_the_size_and_no_number_is_the_worst() {
+        let hex = [0, 1, 2, 3, 4, 5, 6, 7];
+        let mut mesh = cube();
+        mesh.points[6] = Point::new(1.3, 0.9, 1.2);
+        mesh.points.iter_mut().for_each(|p| p.x = -p.x);
+        let own = scaled_jacobian(&mesh.points, &hex);
+        for size in [1e30, 1e105, 1e200] {
+            let large: Vec<Point> = mesh.points.iter().map(|p| p * size).collect();
+            let found = scaled_jacobian(&large, &hex);
+            assert!((found - own).abs() < 1e-12, "{size}: {found}, not {own}");
+        }
+        mesh.points[6].y = f64::NAN;
+        assert_eq!(scaled_jacobian(&mesh.points, &hex), -1.0);
+        assert_eq!(tetrahedron_scaled_jacobian(&mesh.points, &[0, 1, 2, 6]), -1.0);
+        assert_eq!(quadrilateral_scaled_jacobian(&mesh.points, &[4, 5, 6, 7]), -1.0);
     }
 
     #[test]

@@ -77,7 +77,8 @@ fn next_epsilon(epsilon: f64, least: f64, sigma: f64) -> f64 {
     let chi = if least > 0.0 { 0.5 * (least + root) } else { 0.5 * epsilon * epsilon / (root - least) };
     let mu = (1.0 - sigma) * chi;
     let next = if least < mu { 2.0 * (mu * (mu - least)).sqrt() } else { LEAST_EPSILON };
-    next.clamp(LEAST_EPSILON, epsilon)
+    // Not `clamp`, which panics where one of them is not a number.
+    next.max(LEAST_EPSILON).min(epsilon.max(LEAST_EPSILON))
 }
 
 #[cfg(test)]
@@ -94,5 +95,6 @@ mod tests {
         }
         assert!(epsilon < 1e-6);
         assert_eq!(next_epsilon(0.1, 0.5, 0.5), LEAST_EPSILON);
+        assert_eq!(next_epsilon(f64::NAN, f64::NAN, 0.5), LEAST_EPSILON);
     }
 }

@@ -126,11 +126,17 @@ impl Remesher<'_> {
     }
 }
 
-fn check_size(grid: &Grid, padding: usize) -> Result<()> {
-    if padding > MAX_PADDING {
-        return Err(Error::new(ErrorKind::Option, format!("{padding} padding layers are too many"))
-            .remedy(format!("use 0 to {MAX_PADDING}")));
+/// Refuses more layers than [`MAX_PADDING`].
+pub(super) fn check_padding(padding: usize) -> Result<()> {
+    if padding <= MAX_PADDING {
+        return Ok(());
     }
+    Err(Error::new(ErrorKind::Option, format!("{padding} padding layers are too many"))
+        .remedy(format!("use 0 to {MAX_PADDING}")))
+}
+
+fn check_size(grid: &Grid, padding: usize) -> Result<()> {
+    check_padding(padding)?;
     if (grid.hexes.len() + padding * grid.squares.len()) as u128 * 8 > u128::from(u32::MAX) {
         return Err(super::keys::too_fine("padding makes more hexahedra than this program can index"));
     }

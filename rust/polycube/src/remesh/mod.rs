@@ -47,7 +47,7 @@ pub use pipeline::{RemeshOptions, Remeshed, remesh};
 pub use quads::Quads;
 pub use report::{InvertedCell, MOST_LISTED, RemeshReport, Stages};
 pub use site::Site;
-pub use size::{Size, count_hexes, scale_for};
+pub use size::{MOST_HEXES, Size, count_hexes, scale_for};
 
 use crate::context::Context;
 use crate::error::{Error, ErrorKind, Result};

@@ -2,6 +2,7 @@
 
 use super::choose::{Choice, GOOD, Verdict, WORTH, Wrong};
 use super::climb::{Rung, finish};
+use super::hexes::check_padding;
 use super::improve::{Aim, Improved};
 use super::report::{RemeshReport, Stages, cells_of, diagonal, measure};
 use super::start::Start;
@@ -46,6 +47,22 @@ impl Default for RemeshOptions {
             max_hausdorff: 0.005,
             optimise: Settings::default(),
         }
+    }
+}
+
+impl RemeshOptions {
+    /// Refuses what is out of its range, before anything is done.
+    ///
+    /// # Errors
+    /// [`ErrorKind::Option`].
+    fn check(&self) -> Result<()> {
+        if self.max_hausdorff.is_nan() || self.max_hausdorff <= 0.0 {
+            let message = format!("{} is no bound for a distance", self.max_hausdorff);
+            return Err(Error::new(ErrorKind::Option, message).remedy("give a positive number"));
+        }
+        self.size.map_or(Ok(()), Size::check)?;
+        check_padding(self.padding)?;
+        self.simplify.check()
     }
 }
 
@@ -94,13 +111,10 @@ pub struct Remeshed {
 /// ```
 ///
 /// # Errors
-/// Those of [`simplify()`], [`scale_for`](super::scale_for()), [`Remesher`] and [`optimise`](crate::optimise::optimise()); [`ErrorKind::Option`] for a bound on the
-/// Hausdorff distance that is not positive; [`ErrorKind::Cancelled`].
+/// Those of [`simplify()`], [`scale_for`](super::scale_for()), [`Remesher`] and [`optimise`](crate::optimise::optimise()); [`ErrorKind::Option`] for any
+/// option out of its range, before anything is done, and for a size that takes more hexahedra than [`MOST_HEXES`](super::MOST_HEXES); [`ErrorKind::Cancelled`].
 pub fn remesh(input: &Input, options: &RemeshOptions, context: &Context) -> Result<Remeshed> {
-    if options.max_hausdorff.is_nan() || options.max_hausdorff <= 0.0 {
-        let message = format!("{} is no bound for a distance", options.max_hausdorff);
-        return Err(Error::new(ErrorKind::Option, message).remedy("give a positive number"));
-    }
+    options.check()?;
     let start = Instant::now();
     let seconds = || start.elapsed().as_secs_f64();
     let found = simplify(input, &simplifying(options), &context.stage("simplify", 0.0, 0.2))?;

@@ -1,5 +1,6 @@
 //! The scale of the lattice for a wanted size of the mesh.
 
+use super::keys::too_fine;
 use crate::align::{self, Options};
 use crate::context::Context;
 use crate::error::{Error, ErrorKind, Result};
@@ -15,8 +16,47 @@ pub enum Size {
     Scale(f64),
     /// Mean length of the mesh's edges in units of the shape, above 0.
     EdgeLength(f64),
-    /// How many hexahedra there shall be, padding included; at least 1.
+    /// How many hexahedra there shall be, padding included; 1 to [`MOST_HEXES`].
     Hexes(usize),
+}
+
+/// No mesh has more hexahedra, padding included: 32-bit numbers count their corners.
+pub const MOST_HEXES: usize = (u32::MAX / 8) as usize;
+
+impl Size {
+    /// Refuses what no mesh can have.
+    ///
+    /// # Errors
+    /// [`ErrorKind::Option`].
+    pub(super) fn check(self) -> Result<()> {
+        match self {
+            Self::Scale(scale) => positive(scale, "the scale").map(drop),
+            Self::EdgeLength(length) => positive(length, "the edge length").map(drop),
+            Self::Hexes(0) => Err(Error::new(ErrorKind::Option, "a mesh has at least one hexahedron")),
+            Self::Hexes(count) if count > MOST_HEXES => Err(too_many(count as u64)),
+            Self::Hexes(_) => Ok(()),
+        }
+    }
+}
+
+fn positive(x: f64, what: &str) -> Result<f64> {
+    if x.is_finite() && x > 0.0 {
+        return Ok(x);
+    }
+    Err(Error::new(ErrorKind::Option, format!("{what} {x} is not a positive number")))
+}
+
+fn too_many(count: u64) -> Error {
+    too_fine(&format!("{count} hexahedra are more than this program can index, {MOST_HEXES}"))
+}
+
+/// Refuses levels whose lattice has more hexahedra than [`MOST_HEXES`], before anything is made of them.
+///
+/// # Errors
+/// [`ErrorKind::Option`].
+pub(super) fn check_count(simplified: &Simplified, padding: usize) -> Result<()> {
+    let count = count_hexes(&simplified.input.structure, &simplified.levels, padding);
+    if count <= MOST_HEXES as u64 { Ok(()) } else { Err(too_many(count)) }
 }
 
 /// A count within this part of the wanted one ends the search.
@@ -30,22 +70,16 @@ const CLOSE: f64 = 0.005;
 /// from, and there is a least count. Takes up to 40 placements of the levels, some milliseconds each.
 ///
 /// # Errors
-/// [`ErrorKind::Option`] for a size that is not positive and finite; those of [`align::rescale`].
+/// [`ErrorKind::Option`] for a size that is not positive and finite, or for more hexahedra than [`MOST_HEXES`]; those of [`align::rescale`].
 pub fn scale_for(input: &Input, simplified: &Simplified, size: Size, padding: usize, context: &Context) -> Result<f64> {
-    let positive = |x: f64, what: &str| {
-        if x.is_finite() && x > 0.0 {
-            return Ok(x);
-        }
-        Err(Error::new(ErrorKind::Option, format!("{what} {x} is not a positive number")))
-    };
+    size.check()?;
     match size {
-        Size::Scale(scale) => positive(scale, "the scale"),
+        Size::Scale(scale) => Ok(scale),
         Size::EdgeLength(length) => {
             let shape = input.shape.unwrap_or(input.polycube);
             let stretch = (area(simplified, &shape.points) / area(simplified, &input.polycube.points)).sqrt();
-            Ok(stretch / positive(length, "the edge length")?)
+            Ok(stretch / length)
         }
-        Size::Hexes(0) => Err(Error::new(ErrorKind::Option, "a mesh has at least one hexahedron")),
         Size::Hexes(count) => {
             let targets = &simplified.input.placement;
             Search { simplified, targets, padding, wanted: count as f64 }.run(context)

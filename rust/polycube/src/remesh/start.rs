@@ -4,6 +4,7 @@ use super::climb::{Rung, climb};
 use super::improve::Aim;
 use super::pipeline::RemeshOptions;
 use super::refine::Refined;
+use super::size::check_count;
 use super::spacing::spaced;
 use super::warp::on_levels;
 use super::{Size, scale_for, untangle};
@@ -77,8 +78,14 @@ pub(super) fn is_flexible(options: &RemeshOptions) -> bool {
     sized && options.simplify.strategy != Strategy::Naive && options.simplify.guides == Default::default()
 }
 
-/// The simplified polycube at the wanted size.
+/// The simplified polycube at the wanted size, which can be meshed.
 fn sized(input: &Input, found: Simplified, options: &RemeshOptions, context: &Context) -> Result<Simplified> {
+    let result = placed(input, found, options, context)?;
+    check_count(&result, if options.surface_only { 0 } else { options.padding })?;
+    Ok(result)
+}
+
+fn placed(input: &Input, found: Simplified, options: &RemeshOptions, context: &Context) -> Result<Simplified> {
     let scale = match options.size {
         Some(size) => scale_for(input, &found, size, options.padding, &context.stage("scale", 0.0, 0.3))?,
         None if found.report.valid => return Ok(found),

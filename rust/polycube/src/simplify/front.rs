@@ -1,6 +1,7 @@
 //! Moving along the front between few blocks and little displacement, without searching again.
 
-use super::{Input, Options, Report, Simplified, finish, max_displacement};
+use super::report::max_displacement;
+use super::{Input, Options, Report, Seconds, Simplified, finish, no_simplicity};
 use crate::align::{self, Alignment, Strategy, TradeOff};
 use crate::context::Context;
 use crate::error::{Error, ErrorKind, Result};
@@ -51,7 +52,7 @@ impl Simplified {
         let located = self.locate(simplicity, context)?;
         let mut moved = self.moved(input, located, context)?;
         let total = start.elapsed().as_secs_f64();
-        moved.report.seconds = super::Seconds { morph: total, total, ..super::Seconds::default() };
+        moved.report.seconds = Seconds { morph: total, total, ..Seconds::default() };
         Ok(moved)
     }
 
@@ -61,8 +62,7 @@ impl Simplified {
     /// Those of [`at`](Self::at).
     pub fn locate(&self, simplicity: f64, context: &Context) -> Result<Located> {
         if !(0.0..=1.0).contains(&simplicity) {
-            return Err(Error::new(ErrorKind::Option, format!("{simplicity} is no simplicity"))
-                .remedy("give a number from 0, the least displacement, to 1, the fewest blocks"));
+            return Err(no_simplicity(simplicity));
         }
         if self.report.front.is_empty() {
             return Err(Error::new(ErrorKind::Option, "there is no front to move along")
@@ -89,10 +89,6 @@ impl Simplified {
     /// distorted one, with a note.
     pub(super) fn within_distortion(self, input: &Input, context: &Context) -> Result<Self> {
         let Some(limit) = self.options.max_distortion else { return Ok(self) };
-        if limit.is_nan() || limit < 1.0 {
-            return Err(Error::new(ErrorKind::Option, format!("{limit} is no bound for a distortion"))
-                .remedy("give a number of 1 or more; 1 is a similarity"));
-        }
         let first = self.report.chosen.map_or(usize::MAX, |c| c + 1);
         let count = self.report.front.len();
         let mut best = self.clone();

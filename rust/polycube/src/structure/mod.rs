@@ -8,6 +8,7 @@ mod boxes;
 mod charts;
 mod extract;
 mod label;
+mod overlaps;
 mod polycube;
 mod rectangles;
 mod surface;
@@ -15,6 +16,7 @@ mod violation;
 
 pub use arrangement::{Arrangement, Conflict, LevelBox};
 pub use label::{Label, area_vector};
+pub(crate) use overlaps::Overlaps;
 pub use polycube::{Deviation, Polycube, Tolerance};
 pub(crate) use rectangles::rectangles;
 pub use surface::{HalfEdge, Surface};

@@ -3,8 +3,8 @@
 use super::charts::Charts;
 use super::extract::Skeleton;
 use super::label::{Label, area_vector};
-use super::{Arrangement, Conflict, Placement, Structure, Surface, Violation};
-use crate::mesh::{Face, Mesh, Point};
+use super::{Overlaps, Placement, Structure, Surface, Violation};
+use crate::mesh::{Mesh, Point};
 
 /// How far a mesh may be from a polycube and still be read as one.
 #[derive(Clone, Copy, Debug, PartialEq, serde::Serialize)]
@@ -55,7 +55,7 @@ impl Polycube {
     /// Reads `mesh` as a polycube, or lists every violation of the first rule that does not hold ([`Violation`]).
     ///
     /// `labels` has one number per boundary face (see [`Cells::boundary`](crate::mesh::Cells::boundary)), −1 where
-    /// the face's normal shall decide. Whether the surface touches itself is not checked here but by
+    /// the face's normal shall decide, as it does for faces beyond the last label. Whether the surface touches itself is not checked here but by
     /// [`overlaps`](Self::overlaps). O(n log n) for n faces.
     pub fn new(mesh: &Mesh, labels: Option<&[i8]>, tolerance: &Tolerance) -> Result<Self, Vec<Violation>> {
         check_points(&mesh.points)?;
@@ -71,22 +71,9 @@ impl Polycube {
         skeleton.into_polycube(&mesh.points, surface, charts, degrees, tolerance)
     }
 
-    /// Where the surface touches or crosses itself, or looks inward, as the mesh comes.
+    /// Where the surface touches or crosses itself, or looks inward, as the mesh comes: one place for each pair of facets that meet.
     pub fn overlaps(&self, points: &[Point]) -> Vec<Violation> {
-        let arrangement = Arrangement::new(&self.structure, &self.placement);
-        let conflicts = arrangement.conflicts();
-        if conflicts.is_empty() {
-            let face = |facet| Violation::InsideOut { face: self.first_face(facet) };
-            return arrangement.inside_out().into_iter().map(face).collect();
-        }
-        let mut found: Vec<Violation> = Vec::new();
-        for conflict in &conflicts {
-            let violation = self.overlap(conflict, points);
-            if !found.contains(&violation) {
-                found.push(violation);
-            }
-        }
-        found
+        Overlaps::of(self).all(points)
     }
 
     /// The label of every boundary face.
@@ -98,26 +85,6 @@ impl Polycube {
     pub fn prescribed(&self, placement: &[f64]) -> Vec<[Option<f64>; 3]> {
         let at = |level: Option<u32>| level.map(|l| placement[l as usize]);
         self.vertex_levels.iter().map(|levels| levels.map(at)).collect()
-    }
-
-    fn first_face(&self, facet: u32) -> u32 {
-        self.facet_of_face.iter().position(|&f| f == facet).unwrap_or(0) as u32
-    }
-
-    fn overlap(&self, conflict: &Conflict, points: &[Point]) -> Violation {
-        let [face, other] = conflict.facets.map(|f| self.nearest_face(f, Point::from(conflict.point), points));
-        Violation::SelfOverlap { face, other }
-    }
-
-    fn nearest_face(&self, facet: u32, to: Point, points: &[Point]) -> u32 {
-        let distance = |face: &Face| {
-            let v = face.vertices();
-            let sum: nalgebra::Vector3<f64> = v.iter().map(|&v| points[v as usize].coords).sum();
-            (sum / v.len() as f64 - to.coords).norm()
-        };
-        let own = (0..).zip(self.surface.faces()).filter(|(i, _)| self.facet_of_face[*i as usize] == facet);
-        let nearest = own.min_by(|a, b| distance(a.1).total_cmp(&distance(b.1)));
-        nearest.map_or(0, |(i, _)| i)
     }
 }
 

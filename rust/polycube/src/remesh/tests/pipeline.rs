@@ -6,7 +6,7 @@ use crate::context::Context;
 use crate::error::ErrorKind;
 use crate::generate::{Example, example};
 use crate::mesh::{CellKind, Mesh};
-use crate::remesh::{RemeshOptions, Remeshed, Size, base_complex, hausdorff, remesh};
+use crate::remesh::{MAX_PADDING, MOST_HEXES, RemeshOptions, Remeshed, Size, base_complex, hausdorff, remesh};
 use crate::simplify::{Input, Options};
 
 fn options(strategy: Strategy, hexes: usize) -> RemeshOptions {
@@ -59,11 +59,41 @@ fn the_unsimplified_polycube_is_meshed_even_where_rounding_breaks_it() {
 fn wrong_options_and_cancelling_are_errors() {
     let (polycube, shape) = example(Example::Ring, 1, CellKind::Triangles).unwrap();
     let input = Input { polycube: &polycube, shape: Some(&shape), labels: None };
-    let bad = RemeshOptions { max_hausdorff: 0.0, ..RemeshOptions::default() };
-    assert_eq!(remesh(&input, &bad, &Context::default()).unwrap_err().kind, ErrorKind::Option);
+    let sized = |size| RemeshOptions { size: Some(size), ..RemeshOptions::default() };
+    let simplified = |simplify| RemeshOptions { simplify, ..RemeshOptions::default() };
+    let bad = [
+        RemeshOptions { max_hausdorff: 0.0, ..RemeshOptions::default() },
+        RemeshOptions { padding: MAX_PADDING + 1, ..RemeshOptions::default() },
+        sized(Size::Hexes(0)),
+        sized(Size::Hexes(MOST_HEXES + 1)),
+        sized(Size::EdgeLength(f64::NAN)),
+        sized(Size::Scale(-1.0)),
+        simplified(Options { scale: Some(0.0), ..Options::default() }),
+        simplified(Options { simplicity: Some(1.5), ..Options::default() }),
+        simplified(Options { max_displacement: Some(-1.0), ..Options::default() }),
+        simplified(Options { max_distortion: Some(f64::NAN), ..Options::default() }),
+    ];
+    for bad in bad {
+        // Nothing is begun.
+        let begun = Context::new(|stage, _| panic!("{stage} was begun"));
+        assert_eq!(remesh(&input, &bad, &begun).unwrap_err().kind, ErrorKind::Option, "{bad:?}");
+    }
     let context = Context::default();
     context.cancel();
     assert_eq!(remesh(&input, &options(Strategy::Paper, 500), &context).unwrap_err().kind, ErrorKind::Cancelled);
+}
+
+#[test]
+fn a_lattice_too_fine_is_refused_before_anything_is_meshed() {
+    let (polycube, shape) = example(Example::Ring, 1, CellKind::Triangles).unwrap();
+    let input = Input { polycube: &polycube, shape: Some(&shape), labels: None };
+    for padding in [0, 1] {
+        let fine = RemeshOptions { size: Some(Size::Scale(1e4)), padding, ..options(Strategy::Paper, 0) };
+        let meshing = Context::new(|stage, _| assert!(stage != "map" && stage != "mesh", "{stage}"));
+        let error = remesh(&input, &fine, &meshing).unwrap_err();
+        assert_eq!(error.kind, ErrorKind::Option, "{error}");
+        assert!(error.message.contains(&MOST_HEXES.to_string()), "{error}");
+    }
 }
 
 #[test]
