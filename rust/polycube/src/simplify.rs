@@ -6,14 +6,17 @@ use crate::error::{Error, ErrorKind, Place, Result};
 use crate::layout::{Counts, Objective, count};
 use crate::map::{Distortion, Flipped, distortion, flipped, morph};
 use crate::mesh::{Mesh, Point};
-use crate::structure::{Arrangement, Deviation, Polycube, Tolerance, Violation};
+use crate::structure::{Arrangement, Deviation, Polycube, Tolerance};
 use std::time::Instant;
 
+mod blame;
 mod corners;
 mod front;
 mod regions;
 mod untangle;
 
+pub(crate) use blame::remedy;
+use blame::{blame, first_of};
 pub(crate) use corners::Corners;
 pub use front::Located;
 
@@ -166,7 +169,7 @@ impl Report {
 
     /// Lists the flipped elements and measures the distortion anew, after `mesh` was changed.
     pub(crate) fn rejudge(&mut self, input: &Input, polycube: &Polycube, mesh: &Mesh) -> Result<()> {
-        self.notes.retain(|note| !note.ends_with(FLIPPED_NOTE));
+        self.notes.retain(|note| !note.contains(FLIPPED_NOTE));
         if let Some([_, after]) = &mut self.distortion {
             *after = distortion(input.shape.unwrap_or(input.polycube), mesh)?;
         }
@@ -178,7 +181,8 @@ impl Report {
         self.flipped = flipped(mesh, &labels)?;
         self.flipped_elements = self.flipped.cells.len() + self.flipped.faces.len();
         if self.flipped_elements > 0 {
-            self.notes.push(format!("{}{FLIPPED_NOTE}", self.flipped_elements));
+            let remedy = if self.strategy == Strategy::Best { "; lower the simplicity to move less" } else { "" };
+            self.notes.push(format!("{}{FLIPPED_NOTE}{remedy}", self.flipped_elements));
         }
         Ok(())
     }
@@ -231,22 +235,12 @@ pub fn read_structure(input: &Input, tolerance: &Tolerance) -> Result<Polycube> 
 fn read_in_steps(input: &Input, tolerance: &Tolerance, context: &Context) -> Result<Polycube> {
     context.tick(0.0)?;
     check_fit(input)?;
-    let blame = |violations| if is_swapped(input, tolerance) { swapped(violations) } else { first_of(violations) };
-    let polycube = Polycube::new(input.polycube, input.labels, tolerance).map_err(blame)?;
+    let polycube = Polycube::new(input.polycube, input.labels, tolerance).map_err(|v| blame(v, input, tolerance))?;
     context.tick(0.9)?;
     match polycube.overlaps(&input.polycube.points) {
         overlaps if overlaps.is_empty() => Ok(polycube),
         overlaps => Err(first_of(overlaps)),
     }
-}
-
-/// Whether the mesh given as the shape is a polycube.
-fn is_swapped(input: &Input, tolerance: &Tolerance) -> bool {
-    input.shape.is_some_and(|shape| Polycube::new(shape, None, tolerance).is_ok())
-}
-
-fn swapped(violations: Vec<Violation>) -> Error {
-    first_of(violations).remedy("swap the two: what was given as the shape is a polycube, this is none")
 }
 
 /// Simplifies a polycube (paper, Algorithm 1): finds its structure, aligns its corners on the integer
@@ -353,17 +347,6 @@ pub(crate) fn check_fit(input: &Input) -> Result<()> {
     Err(Error::new(ErrorKind::Mesh, "a coordinate of the shape is not a finite number")
         .at(Place::Vertex(vertex))
         .remedy("repair or remove the vertex and export the mesh again"))
-}
-
-fn first_of(violations: Vec<Violation>) -> Error {
-    let others = violations.len().saturating_sub(1);
-    let first = violations.into_iter().next().unwrap_or(Violation::Empty);
-    let mut error = Error::from(first);
-    if others > 0 {
-        error.message =
-            format!("{}; {others} more like it, which a check lists (command: `polycube validate`)", error.message);
-    }
-    error
 }
 
 /// The objective where none is given: padded blocks for a volume, patches for a surface.

@@ -3,7 +3,7 @@
 use crate::error::{Error, ErrorKind, Place};
 use crate::map::flipped;
 use crate::mesh::{Face, Mesh, Point};
-use crate::simplify::{Input, check_fit};
+use crate::simplify::{Input, check_fit, remedy};
 use crate::structure::{Polycube, Tolerance, Violation};
 
 /// Which of the two meshes a finding is about.
@@ -51,18 +51,25 @@ pub fn validate(input: &Input, tolerance: &Tolerance) -> Vec<Finding> {
 
 fn polycube(input: &Input, tolerance: &Tolerance) -> Vec<Finding> {
     let mesh = input.polycube;
+    let mut better = None;
     let (mut violations, labels) = match Polycube::new(mesh, input.labels, tolerance) {
         Ok(polycube) => {
             let labels: Vec<i8> = polycube.labels().map(|l| l.index() as i8).collect();
             (polycube.overlaps(&mesh.points), labels)
         }
-        Err(violations) => (violations, Vec::new()),
+        Err(violations) => {
+            better = remedy(&violations, input, tolerance);
+            (violations, Vec::new())
+        }
     };
     let flipped = flipped(mesh, &labels).unwrap_or_default();
     let fresh: Vec<_> = inverted(&flipped.cells).filter(|v| !violations.contains(v)).collect();
     violations.extend(fresh);
     let middles = Middles::new(mesh);
     let mut findings = middles.findings(violations.into_iter(), Subject::Polycube);
+    if let Some(better) = better {
+        findings.iter_mut().for_each(|f| better.clone_into(&mut f.remedy));
+    }
     findings.extend(flipped.faces.iter().map(|&face| middles.flipped_face(face)));
     findings
 }

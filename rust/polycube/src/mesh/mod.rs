@@ -7,8 +7,8 @@ mod io;
 mod simplices;
 
 pub use io::{
-    CellField, FieldValues, Format, parse_labels, read, read_bytes, read_labels, read_pair, write, write_atomically,
-    write_bytes, write_labels,
+    CellField, FieldValues, Format, Staged, parse_labels, read, read_bytes, read_labels, read_pair, write,
+    write_atomically, write_bytes, write_labels,
 };
 pub(crate) use simplices::split_quad;
 pub use simplices::{Face, Simplices};
