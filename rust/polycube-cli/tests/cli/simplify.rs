@@ -154,7 +154,7 @@ fn no_mesh_of_an_earlier_run_stays_and_no_input_goes() {
     sandbox.ok("simplify l.obj -o out --format vtk");
     sandbox.ok("simplify l.obj -o out --format ply");
     assert_eq!(sandbox.results("out"), "polycube.ply");
-    sandbox.ok("simplify out/polycube.ply -o out --format obj");
+    sandbox.ok("simplify out/polycube.ply --labels out/polycube.labels -o out --format obj");
     assert_eq!(sandbox.names("out").len(), 5, "{:?}", sandbox.names("out"));
     assert!(sandbox.names("out").contains(&"polycube.ply".to_owned()), "it was read");
     std::fs::create_dir(sandbox.path("mine")).unwrap();
