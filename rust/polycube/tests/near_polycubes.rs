@@ -350,6 +350,6 @@ fn swapped_meshes_are_recognised() {
     assert!(remedy(&turned, &straight).starts_with("swap the two"));
     assert!(remedy(&turned, &turned).starts_with("this looks like a shape, not a polycube"));
     let mut dented = straight.clone();
-    dented.points[0] += Vector3::new(0.9, 0.0, 0.0);
+    dented.points[vertex(&straight, [0.0; 3]) as usize].x += 0.9;
     assert!(remedy(&dented, &dented).starts_with("give labels"));
 }
