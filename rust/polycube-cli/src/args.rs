@@ -1,8 +1,9 @@
 //! The command line: subcommands and what they have in common.
 
 use crate::{compare, completions, demo, inspect, remesh, simplify, validate, view};
-use clap::{Args, Parser, Subcommand, ValueHint};
+use clap::{Args, CommandFactory, Parser, Subcommand, ValueHint};
 use polycube::structure::Tolerance;
+use std::ops::RangeInclusive;
 use std::path::PathBuf;
 
 const EXIT_CODES: &str = "\
@@ -10,7 +11,8 @@ Exit codes:
   0    done; `validate`: the polycube is valid
   1    failure: a file cannot be read, understood or written, or there is no solution;
        `compare`: some inputs could not be compared, the others are in the table
-  2    wrong usage: an unknown option, or a value out of its range
+  2    wrong usage: an unknown option, one that has no effect with the strategy chosen, or a value
+       out of its range
   3    not a valid polycube: violations found, shape and polycube do not match,
        or `--strategy naive` broke it
   4    `remesh`: the meshes are written, but hexahedra are inverted, or the surface is farther
@@ -21,13 +23,23 @@ Mesh files: .obj .off .ply .stl (surfaces), .mesh .vtk .vtu (surfaces, tetrahedr
 Vertices, faces and cells are numbered from 0.";
 
 /// Turn a polycube into a coarser one: align its corners on the integer lattice, keep its topology,
-/// and morph its mesh onto the result.
+/// and morph its mesh onto the result. The method is that of Cherchi, Livesu and Scateni, "Polycube
+/// Simplification for Coarse Layouts of Surfaces and Volumes", Computer Graphics Forum 35 (5), 2016.
 #[derive(Debug, Parser)]
 #[command(name = "polycube", version, after_help = EXIT_CODES, max_term_width = 100)]
 pub struct Cli {
     /// What to do.
     #[command(subcommand)]
     pub command: Command,
+}
+
+/// The command line, where the value of an option may be a negative number, so that its range is told.
+pub fn command() -> clap::Command {
+    let negative = |arg: clap::Arg| {
+        let takes = !arg.is_positional() && arg.get_action().takes_values();
+        if takes { arg.allow_negative_numbers(true) } else { arg }
+    };
+    Cli::command().mut_subcommands(|subcommand| subcommand.mut_args(negative))
 }
 
 /// What the command can do.
@@ -107,10 +119,29 @@ pub fn percent(text: &str) -> Result<f64, String> {
     found.ok_or_else(|| "expected a number above 0, up to 100".to_owned())
 }
 
-fn within(text: &str, range: std::ops::RangeInclusive<f64>) -> Result<f64, String> {
+/// Whole numbers of a range, for `value_parser`.
+pub fn whole<T: TryFrom<u64>>(range: RangeInclusive<u64>) -> impl Fn(&str) -> Result<T, String> + Clone {
+    move |text| {
+        let found = text.parse().ok().filter(|x| range.contains(x));
+        found.and_then(|x| T::try_from(x).ok()).ok_or_else(|| {
+            let (start, end) = (range.start(), range.end());
+            // An end that only the machine has is told to those who went beyond it.
+            if *end < MACHINE || text.parse::<f64>().is_ok_and(|x| x > *end as f64) {
+                format!("expected a whole number from {start} to {end}")
+            } else {
+                format!("expected a whole number of {start} or more")
+            }
+        })
+    }
+}
+
+fn within(text: &str, range: RangeInclusive<f64>) -> Result<f64, String> {
     let found = text.parse().ok().filter(|x| range.contains(x));
     found.ok_or_else(|| format!("expected a number from {} to {}", range.start(), range.end()))
 }
+
+/// The least that a range may end at because the machine ends there.
+const MACHINE: u64 = u32::MAX as u64;
 
 /// A number of 1 or more.
 pub fn at_least_one(text: &str) -> Result<f64, String> {
@@ -127,11 +158,10 @@ pub fn positive(text: &str) -> Result<f64, String> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use clap::CommandFactory;
 
     #[test]
     fn the_command_line_is_consistent() {
-        Cli::command().debug_assert();
+        command().debug_assert();
     }
 
     #[test]
@@ -148,6 +178,14 @@ mod tests {
         for bad in ["-0.1", "1.1", "nan", "x"] {
             assert!(fraction(bad).is_err(), "{bad}");
         }
+        let whole = |text| whole::<u8>(1..=16)(text);
+        assert_eq!(whole("16"), Ok(16));
+        for bad in ["0", "-3", "17", "300", "1.5", "x", ""] {
+            assert_eq!(whole(bad), Err("expected a whole number from 1 to 16".to_owned()), "{bad}");
+        }
+        let counted = |text| super::whole::<u32>(1..=u64::from(u32::MAX))(text);
+        assert_eq!(counted("-1"), Err("expected a whole number of 1 or more".to_owned()));
+        assert!(counted("4294967296").is_err_and(|e| e.ends_with("to 4294967295")));
         assert_eq!(degrees("45"), Ok(45.0));
         assert!(degrees("45.1").is_err());
     }

@@ -1,6 +1,6 @@
 //! `polycube demo`.
 
-use crate::args::{PolycubeArgs, ToleranceArgs};
+use crate::args::{PolycubeArgs, ToleranceArgs, whole};
 use crate::failure::Result;
 use crate::output::Output;
 use crate::progress::Progress;
@@ -31,7 +31,7 @@ pub struct Args {
     output: PathBuf,
 
     /// Where the seed shifts the parts of the examples; 0 leaves all of them aligned
-    #[arg(long, value_name = "N", default_value_t = 1)]
+    #[arg(long, value_name = "N", value_parser = whole::<u64>(0..=u64::MAX), default_value_t = 1)]
     seed: u64,
 
     /// The example to simplify
@@ -103,7 +103,7 @@ fn write_examples(seed: u64, folder: &Path, context: &Context) -> Result<()> {
         output.add(&format!("{name}.polycube.{format}"), &mesh::write_bytes(format, &polycube, &[])?)?;
         output.add(&format!("{name}.shape.{format}"), &mesh::write_bytes(format, &shape, &[])?)?;
     }
-    Ok(output.publish(&[], context)?)
+    Ok(output.publish(&[], &[], context)?)
 }
 
 /// The example as a user would simplify it.

@@ -1,7 +1,7 @@
 //! What went wrong, as a message for people and an exit code for programs.
 
 use crate::terminal;
-use polycube::{Error, ErrorKind};
+use polycube::{Error, ErrorKind, Place};
 use std::fmt;
 use std::path::Path;
 use std::process::ExitCode;
@@ -20,16 +20,17 @@ pub const CANCELLED: u8 = 130;
 /// Result of a subcommand or a part of it.
 pub type Result<T> = std::result::Result<T, Failure>;
 
-/// An error and the file it is about, where the message does not name it.
+/// An error and its exit code.
 #[derive(Debug)]
 pub struct Failure {
-    file: Option<String>,
     error: Error,
+    code: u8,
 }
 
 impl From<Error> for Failure {
     fn from(error: Error) -> Self {
-        Self { file: None, error }
+        let code = code(error.kind);
+        Self { error, code }
     }
 }
 
@@ -38,25 +39,49 @@ impl Failure {
     pub fn in_file(file: &Path) -> impl Fn(Error) -> Self + '_ {
         move |error| {
             let about_mesh = matches!(error.kind, ErrorKind::Mesh | ErrorKind::Polycube | ErrorKind::Mismatch);
-            Self { file: about_mesh.then(|| file.display().to_string()), error }
+            if about_mesh { error.in_file(file.display()).into() } else { error.into() }
         }
+    }
+
+    /// An error of work on the mesh of `file` with the `guides` of another. Only what the guides cannot have gets their name.
+    pub fn in_files(file: &Path, guides: Option<&Path>) -> impl Fn(Error) -> Self {
+        move |error| match guides {
+            Some(guides) if is_about_guides(&error) => error.in_file(guides.display()).into(),
+            _ => Self::in_file(file)(error),
+        }
+    }
+
+    /// An error of reading a mesh. A file that holds none cannot be understood, which is another matter than a mesh that is no
+    /// polycube.
+    pub fn in_reading(error: Error) -> Self {
+        let code = if error.kind == ErrorKind::Mesh { FAILURE } else { code(error.kind) };
+        Self { error, code }
     }
 
     /// Prints the message and gives the exit code.
     pub fn report(&self) -> ExitCode {
         terminal::print_error(&self.to_string());
-        ExitCode::from(self.code())
+        ExitCode::from(self.code)
     }
+}
 
-    fn code(&self) -> u8 {
-        match self.error.kind {
-            ErrorKind::Mesh | ErrorKind::Polycube | ErrorKind::Mismatch => INVALID,
-            ErrorKind::Option => USAGE,
-            ErrorKind::Cancelled => CANCELLED,
-            ErrorKind::Io | ErrorKind::Parse | ErrorKind::Unsupported | ErrorKind::Infeasible | ErrorKind::Internal => {
-                FAILURE
-            }
+fn code(kind: ErrorKind) -> u8 {
+    match kind {
+        ErrorKind::Mesh | ErrorKind::Polycube | ErrorKind::Mismatch => INVALID,
+        ErrorKind::Option => USAGE,
+        ErrorKind::Cancelled => CANCELLED,
+        ErrorKind::Io | ErrorKind::Parse | ErrorKind::Unsupported | ErrorKind::Infeasible | ErrorKind::Internal => {
+            FAILURE
         }
+    }
+}
+
+/// Facets are named, and planes, by guides alone; without guides there is a result.
+fn is_about_guides(error: &Error) -> bool {
+    match error.kind {
+        ErrorKind::Infeasible => true,
+        ErrorKind::Option => matches!(error.place, Some(Place::Facet(_))) || error.message.contains("plane"),
+        _ => false,
     }
 }
 
@@ -66,7 +91,7 @@ impl fmt::Display for Failure {
             return f.write_str("cancelled");
         }
         f.write_str("error: ")?;
-        if let Some(file) = &self.file {
+        if let Some(file) = &self.error.file {
             write!(f, "{file}: ")?;
         }
         if let Some(place) = &self.error.place {

@@ -157,12 +157,16 @@ impl Found {
 
 /// The facets in the order of their numbers.
 fn facets(polycube: &Polycube) -> Vec<FacetRow> {
+    let mut first = vec![0; polycube.structure.facets.len()];
+    for (face, &facet) in polycube.facet_of_face.iter().enumerate().rev() {
+        first[facet as usize] = face;
+    }
     let row = |(facet, f): (usize, &polycube::structure::Facet)| FacetRow {
         facet,
         label: f.label.to_string(),
         at: polycube.placement[f.level as usize],
         corners: f.sides().count(),
-        face: polycube.facet_of_face.iter().position(|&g| g as usize == facet).unwrap_or(0),
+        face: first[facet],
     };
     polycube.structure.facets.iter().enumerate().map(row).collect()
 }

@@ -5,6 +5,7 @@ mod colour;
 mod compare;
 mod completions;
 mod demo;
+mod effect;
 mod failure;
 mod guides;
 mod inspect;
@@ -22,15 +23,21 @@ mod validate;
 mod view;
 
 use args::{Cli, Command};
-use clap::Parser;
+use clap::FromArgMatches;
 use failure::{Failure, USAGE};
 use std::process::ExitCode;
 
 fn main() -> ExitCode {
-    let cli = match Cli::try_parse() {
-        Ok(cli) => cli,
+    let mut command = args::command();
+    let parsed = command.try_get_matches_from_mut(std::env::args_os());
+    let parsed = parsed.and_then(|m| Ok((Cli::from_arg_matches(&m).map_err(|e| e.format(&mut command))?, m)));
+    let (cli, matches) = match parsed {
+        Ok(parsed) => parsed,
         Err(error) => return explain(&error),
     };
+    if let Err(failure) = effect::check(&matches) {
+        return failure.report();
+    }
     let done = match cli.command {
         Command::Simplify(args) => simplify::run(&args),
         Command::Remesh(args) => remesh::run(&args),

@@ -3,6 +3,7 @@
 use crate::failure::{Failure, Result};
 use polycube::mesh::{self, Mesh};
 use polycube::simplify::Input;
+use polycube::{Error, ErrorKind};
 use std::path::Path;
 
 /// A polycube, with the shape and the labels that came with it.
@@ -18,7 +19,7 @@ pub struct MeshFiles {
 impl MeshFiles {
     /// Reads the files.
     pub fn read(polycube: &Path, shape: Option<&Path>, labels: Option<&Path>) -> Result<Self> {
-        let (mesh, shape) = read_meshes(polycube, shape)?;
+        let (mesh, shape) = read_meshes(polycube, shape).map_err(Failure::in_reading)?;
         let labels = labels.map(|file| read_labels(file, polycube, &mesh)).transpose()?;
         Ok(Self { polycube: mesh, shape, labels })
     }
@@ -41,4 +42,14 @@ pub fn read_meshes(polycube: &Path, shape: Option<&Path>) -> polycube::Result<(M
 pub fn read_labels(file: &Path, of: &Path, mesh: &Mesh) -> Result<Vec<i8>> {
     let faces = mesh.cells.boundary().map_err(Failure::in_file(of))?.len();
     Ok(mesh::read_labels(file, faces)?)
+}
+
+/// The text of a file that is no mesh but, say, a "list".
+pub fn read_text(file: &Path, what: &str) -> polycube::Result<String> {
+    let failed = |message: String, remedy: String| Error::new(ErrorKind::Io, message).remedy(remedy);
+    if file.is_dir() {
+        return Err(failed(format!("{} is a folder", file.display()), format!("name a file: a {what}")));
+    }
+    std::fs::read_to_string(file)
+        .map_err(|e| failed(format!("cannot read {}: {e}", file.display()), "check the path".to_owned()))
 }

@@ -1,18 +1,20 @@
 //! A folder of files that appear together or not at all.
 
-use polycube::mesh::write_atomically;
+use polycube::mesh::{CellKind, Format, Staged, write_atomically};
 use polycube::{Context, Error, ErrorKind, Result};
 use std::fs;
-use std::io::{self, Write};
+use std::io;
 use std::path::{Path, PathBuf};
-use tempfile::NamedTempFile;
+
+/// The file that tells that a folder was filled by this program.
+pub const REPORT: &str = "report.json";
 
 /// Files under temporary names in their folder, until all of them are complete.
 pub struct Output {
     folder: PathBuf,
     /// The folders that did not exist before, outermost first.
     made: Vec<PathBuf>,
-    files: Vec<(PathBuf, NamedTempFile)>,
+    files: Vec<(PathBuf, Staged)>,
 }
 
 impl Output {
@@ -50,35 +52,42 @@ impl Output {
         if let Some(parent) = path.parent() {
             self.make(parent)?;
         }
-        let file = self.stage(bytes).map_err(|e| failed("write", &path, &e))?;
+        let file = Staged::new(&self.folder, bytes).map_err(|e| failed("write", &path, &e))?;
         self.files.push((path, file));
         Ok(())
     }
 
-    fn stage(&self, bytes: &[u8]) -> io::Result<NamedTempFile> {
-        let mut builder = tempfile::Builder::new();
-        builder.prefix(".polycube-").suffix(".tmp");
-        // A temporary file is private by default, but this one becomes an ordinary file.
-        #[cfg(unix)]
-        builder.permissions(std::os::unix::fs::PermissionsExt::from_mode(0o666));
-        let mut file = builder.tempfile_in(&self.folder)?;
-        file.write_all(bytes)?;
-        file.as_file().sync_all()?;
-        Ok(file)
+    /// The meshes `NAME.EXT` of an earlier run, which left its report, in every format that holds a kind of cells.
+    pub fn meshes_left(&self, names: &[(&str, &[CellKind])]) -> Vec<PathBuf> {
+        if !self.path(REPORT).is_file() {
+            return Vec::new();
+        }
+        let able = |kinds: &[CellKind], format: Format| kinds.iter().any(|&kind| format.holds(kind));
+        let all = names.iter().flat_map(|&(name, kinds)| {
+            let formats = Format::ALL.into_iter().filter(move |&f| able(kinds, f));
+            formats.map(move |format| format!("{name}.{format}"))
+        });
+        all.map(|name| self.path(&name)).collect()
     }
 
-    /// Gives all files their names, unless the context was cancelled, and removes the files `stale` of an earlier run.
+    /// Gives all files their names, unless the context was cancelled, and removes those `stale` of an earlier run that this one
+    /// neither read (`inputs`) nor writes.
     ///
     /// # Errors
     /// [`ErrorKind::Cancelled`]; [`ErrorKind::Io`] naming the file that could not be renamed or removed.
-    pub fn publish(mut self, stale: &[PathBuf], context: &Context) -> Result<()> {
+    pub fn publish(mut self, stale: &[PathBuf], inputs: &[&Path], context: &Context) -> Result<()> {
         context.tick(1.0)?;
         self.made.clear();
-        for path in stale.iter().filter(|p| p.is_file()) {
+        let inputs: Vec<PathBuf> = inputs.iter().filter_map(|p| fs::canonicalize(p).ok()).collect();
+        let is_used = |path: &Path| {
+            let read = fs::canonicalize(path).is_ok_and(|p| inputs.contains(&p));
+            read || self.files.iter().any(|(written, _)| written == path)
+        };
+        for path in stale.iter().filter(|p| p.is_file() && !is_used(p)) {
             fs::remove_file(path).map_err(|e| failed("remove", path, &e))?;
         }
         for (path, file) in std::mem::take(&mut self.files) {
-            file.persist(&path).map_err(|e| failed("write", &path, &e.error))?;
+            file.publish(&path).map_err(|e| failed("write", &path, &e))?;
         }
         Ok(())
     }
@@ -141,7 +150,7 @@ mod tests {
         output.add("one", b"1").unwrap();
         output.add("two", b"2").unwrap();
         assert!(!folder.join("one").exists());
-        output.publish(&[], &Context::default()).unwrap();
+        output.publish(&[], &[], &Context::default()).unwrap();
         assert_eq!(names(&folder), ["one", "two"]);
     }
 
@@ -152,7 +161,7 @@ mod tests {
         context.cancel();
         let mut output = Output::new(&root.path().join("a/b")).unwrap();
         output.add("one", b"1").unwrap();
-        assert_eq!(output.publish(&[], &context).unwrap_err().kind, ErrorKind::Cancelled);
+        assert_eq!(output.publish(&[], &[], &context).unwrap_err().kind, ErrorKind::Cancelled);
         assert!(names(root.path()).is_empty());
         fs::create_dir(root.path().join("taken")).unwrap();
         let mut output = Output::new(root.path()).unwrap();
@@ -189,13 +198,25 @@ mod tests {
     }
 
     #[test]
-    fn what_is_stale_goes() {
+    fn what_is_stale_goes_unless_it_was_read_or_is_written() {
         let root = tempfile::tempdir().unwrap();
-        let old = root.path().join("old");
-        fs::write(&old, "").unwrap();
+        let [old, new, read] = ["old", "new", "read"].map(|name| root.path().join(name));
+        [&old, &new, &read].iter().for_each(|path| fs::write(path, "").unwrap());
         let mut output = Output::new(root.path()).unwrap();
-        output.add("new", b"").unwrap();
-        output.publish(&[old], &Context::default()).unwrap();
-        assert_eq!(names(root.path()), ["new"]);
+        output.add("new", b"1").unwrap();
+        let input = root.path().join("./read");
+        output.publish(&[old, new.clone(), read], &[&input], &Context::default()).unwrap();
+        assert_eq!(names(root.path()), ["new", "read"]);
+        assert_eq!(fs::read(new).unwrap(), b"1");
+    }
+
+    #[test]
+    fn only_a_folder_with_a_report_has_meshes_left() {
+        let root = tempfile::tempdir().unwrap();
+        let output = Output::new(root.path()).unwrap();
+        let left = || output.meshes_left(&[("hexes", &[CellKind::Hexahedra])]);
+        assert!(left().is_empty());
+        fs::write(root.path().join(REPORT), "").unwrap();
+        assert_eq!(left(), ["mesh", "vtk", "vtu"].map(|e| root.path().join(format!("hexes.{e}"))));
     }
 }

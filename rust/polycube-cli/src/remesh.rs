@@ -1,17 +1,17 @@
 //! `polycube remesh`.
 
-use crate::args::{ToleranceArgs, at_least_one, fraction, percent, positive};
+use crate::args::{ToleranceArgs, at_least_one, fraction, percent, positive, whole};
 use crate::colour;
 use crate::failure::{Failure, INFERIOR, Result};
 use crate::mesh_files::MeshFiles;
-use crate::output::Output;
+use crate::output::{Output, REPORT};
 use crate::progress::Progress;
 use crate::report::{Files, RemeshRun};
 use crate::search::SearchArgs;
 use crate::simplify::{LABELS, ObjectiveArg, StrategyArg, format};
 use crate::{table, terminal};
 use clap::ValueHint;
-use polycube::mesh::{self, CellField, Format, Mesh};
+use polycube::mesh::{self, CellField, CellKind, Format, Mesh};
 use polycube::remesh::{RemeshOptions, Remeshed, Size, remesh};
 use polycube::simplify::Options;
 use polycube::{Context, Error, ErrorKind};
@@ -28,12 +28,16 @@ In the output folder:
   hexes.vtu       with the cell arrays scaled_jacobian, block_id and label
   polycube.EXT    the polycube on the lattice, with the connectivity of the input
   polycube.labels the label of each of its boundary faces, one a line, for --labels
-  report.json     that of `simplify`, and hexes, inverted, min_sj, avg_sj, hausdorff, quads, histogram, times
-They appear together when all is done, or not at all. With --surface-only there are no hexahedra and no
-layout.vtk. --format EXT writes hexahedra (or, if it holds surfaces only, quadrilaterals) in that format, too;
-quads.ply has a colour for each patch.
-Exit code 4: the meshes are written, but hexahedra are inverted (scaled_jacobian of 0 or less in hexes.vtu) or the
-surface is farther from the shape than --max-hausdorff. `polycube --help` lists the exit codes.";
+  report.json     that of `simplify`, and hexes, inverted, min_sj, avg_sj, hausdorff, quads,
+                  histogram, times
+They appear together when all is done, or not at all. With --surface-only there are no hexahedra
+and no layout.vtk. --format EXT writes hexahedra (or, if it holds surfaces only, quadrilaterals) in
+that format, too; quads.ply has a colour for each patch.
+--hexes N with --surface-only: the lattice is as fine as for N hexahedra, and the quadrilaterals
+are those of its surface, not N.
+Exit code 4: the meshes are written, but hexahedra are inverted (scaled_jacobian of 0 or less in
+hexes.vtu) or the surface is farther from the shape than --max-hausdorff.
+`polycube --help` lists the exit codes, `polycube simplify --help` shows a file of guides.";
 
 /// What to mesh and how.
 #[derive(clap::Args, Clone, Debug)]
@@ -64,7 +68,7 @@ pub struct Args {
     pub size: SizeArgs,
 
     /// Layers of hexahedra between the polycube and the surface, 0 to 16
-    #[arg(long, value_name = "N", default_value_t = 1, value_parser = clap::value_parser!(u8).range(0..=16))]
+    #[arg(long, value_name = "N", default_value_t = 1, value_parser = whole::<u8>(0..=16))]
     pub padding: u8,
 
     /// Leave the hexahedra out
@@ -139,8 +143,8 @@ pub struct SizeArgs {
     #[arg(long, value_name = "S", value_parser = positive)]
     pub scale: Option<f64>,
 
-    /// About how many hexahedra there shall be, padding included
-    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..))]
+    /// About how many hexahedra there shall be, padding included; with --surface-only, would be
+    #[arg(long, value_name = "N", value_parser = whole::<u32>(1..=u64::from(u32::MAX)))]
     pub hexes: Option<u32>,
 }
 
@@ -166,6 +170,10 @@ impl Args {
             max_hausdorff: self.max_hausdorff / 100.0,
             ..RemeshOptions::default()
         }
+    }
+
+    fn inputs(&self) -> Vec<&Path> {
+        [&self.shape, &self.polycube].into_iter().chain(&self.labels).map(PathBuf::as_path).collect()
     }
 
     fn files(&self) -> Files {
@@ -204,7 +212,7 @@ pub fn work(args: &Args, context: &Context) -> Result<Remeshed> {
     let formats = Formats::new(args, &meshes)?;
     let read = start.elapsed().as_secs_f64();
     let middle = context.stage("read", 0.05, 0.95);
-    let about = Failure::in_file(&args.polycube);
+    let about = Failure::in_files(&args.polycube, args.search.guides.as_deref());
     let (input, mut options) = (meshes.input(), args.options());
     options.simplify.guides = args.search.guides(&args.polycube, &input, &options.simplify.tolerance)?;
     let mut result = remesh(&input, &options, &middle).map_err(about)?;
@@ -237,6 +245,14 @@ impl Formats {
         Ok(Self { polycube, extra: args.format })
     }
 }
+
+/// The names of the meshes that may be written, and what their formats must be able to hold.
+const MESHES: [(&str, &[CellKind]); 4] = [
+    ("layout", &[CellKind::Quads, CellKind::Hexahedra]),
+    ("quads", &[CellKind::Quads]),
+    ("hexes", &[CellKind::Hexahedra]),
+    ("polycube", &CellKind::ALL),
+];
 
 /// A file of the result by its name without extension.
 struct File<'a> {
@@ -307,10 +323,7 @@ fn write(
     seconds.write = elapsed();
     seconds.total += seconds.read + seconds.write;
     let run = RemeshRun { input: &args.files(), options: options.into(), output: &polycube, report: &result.report };
-    output.add("report.json", terminal::to_json(&run)?.as_bytes())?;
-    let stale = match result.hexes {
-        Some(_) => Vec::new(),
-        None => ["layout.vtk", "hexes.mesh", "hexes.vtu"].map(|name| output.path(name)).to_vec(),
-    };
-    Ok(output.publish(&stale, context)?)
+    output.add(REPORT, terminal::to_json(&run)?.as_bytes())?;
+    let stale = output.meshes_left(&MESHES);
+    Ok(output.publish(&stale, &args.inputs(), context)?)
 }

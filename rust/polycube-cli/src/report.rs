@@ -24,7 +24,7 @@ pub struct Files {
 pub struct RunReport<'a> {
     /// What was read.
     pub input: &'a Files,
-    /// How it was done; the scale and the strategy are below.
+    /// How it was asked to be done; the strategy is below.
     pub options: OptionsUsed,
     /// The name of the simplified polycube in the output folder; nothing if there is no valid one.
     pub output: Option<&'a str>,
@@ -43,7 +43,7 @@ pub struct RunReport<'a> {
 pub struct RemeshRun<'a> {
     /// What was read.
     pub input: &'a Files,
-    /// How it was done; the scale and the strategy are below.
+    /// How it was asked to be done; the strategy is below.
     pub options: RemeshOptionsUsed,
     /// The name of the polycube in the output folder.
     pub output: &'a str,
@@ -69,9 +69,13 @@ impl From<&RemeshOptions> for RemeshOptionsUsed {
     }
 }
 
-/// The options that the library's report does not repeat.
+/// The options as they were asked for, but for the strategy; with the default of the objective.
 #[derive(Clone, Debug, Serialize)]
 pub struct OptionsUsed {
+    /// The scale asked for; the one used is in the library's report.
+    scale: Option<f64>,
+    /// Nothing: for `remesh`, the fewest blocks whose hexahedra are good.
+    simplicity: Option<f64>,
     lambda_min: f64,
     solver: SolverKind,
     objective: Option<Objective>,
@@ -84,9 +88,20 @@ pub struct OptionsUsed {
 
 impl From<Options> for OptionsUsed {
     fn from(options: Options) -> Self {
-        let Options { lambda_min, solver, objective, effort, tolerance, .. } = options;
+        let Options { scale, simplicity, lambda_min, solver, objective, effort, tolerance, .. } = options;
         let Options { max_displacement, max_distortion, guides, .. } = options;
-        Self { lambda_min, solver, objective, effort, tolerance, max_displacement, max_distortion, guides }
+        Self {
+            scale,
+            simplicity,
+            lambda_min,
+            solver,
+            objective,
+            effort,
+            tolerance,
+            max_displacement,
+            max_distortion,
+            guides,
+        }
     }
 }
 

@@ -1,6 +1,6 @@
 //! The options of the search that `simplify` and `remesh` share.
 
-use crate::args::{fraction, positive};
+use crate::args::{fraction, positive, whole};
 use crate::failure::Result;
 use crate::guides;
 use clap::ValueHint;
@@ -19,15 +19,16 @@ pub struct SearchArgs {
     lambda_min: f64,
 
     /// How long `best` searches: moves tried per level of the polycube in each of its eight chains
-    #[arg(long, value_name = "N", default_value_t = Effort::default().steps_per_level)]
+    #[arg(long, value_name = "N", value_parser = whole::<u32>(0..=u64::from(u32::MAX)), default_value_t = Effort::default().steps_per_level)]
     steps: u32,
 
-    /// Facets that must not move, that must or must not align, and planes of symmetry to keep: a JSON file, see README.md
+    /// Facets that must not move, that must or must not align, and planes of symmetry to keep: a JSON file, see
+    /// `polycube simplify --help`
     #[arg(long, value_name = "FILE", value_hint = ValueHint::FilePath)]
-    guides: Option<PathBuf>,
+    pub guides: Option<PathBuf>,
 
     /// How long `best` tries to prove that its result cannot be beaten: partial orders looked at
-    #[arg(long, value_name = "N", default_value_t = Effort::default().proof_nodes)]
+    #[arg(long, value_name = "N", value_parser = whole::<u64>(0..=u64::MAX), default_value_t = Effort::default().proof_nodes)]
     proof_nodes: u64,
 
     /// Stop the search after this many seconds with the best found; the result may then differ from run to run

@@ -3,17 +3,17 @@
 use crate::args::{PolycubeArgs, at_least_one, fraction, positive};
 use crate::failure::{Failure, INVALID, Result};
 use crate::mesh_files::MeshFiles;
-use crate::output::Output;
+use crate::output::{Output, REPORT};
 use crate::pareto::Point;
 use crate::progress::Progress;
 use crate::report::{self, Files, RunReport, StructureFile};
 use crate::search::SearchArgs;
-use crate::{pareto, table, terminal};
+use crate::{guides, pareto, table, terminal};
 use clap::ValueHint;
 use clap::builder::PossibleValue;
 use polycube::align::Strategy;
 use polycube::layout::Objective;
-use polycube::mesh::{self, Format};
+use polycube::mesh::{self, CellKind, Format};
 use polycube::simplify::{Options, Simplified};
 use polycube::{Context, Error, ErrorKind};
 use std::path::{Path, PathBuf};
@@ -29,14 +29,15 @@ In the output folder:
   front/          with --pareto: the mesh of every point of the front
 They appear together when all is done, or not at all. With `--strategy naive` and a result that is
 not valid, the two reports say what broke, there is no polycube, and the exit code is 3.
-`polycube --help` lists the exit codes.";
+`polycube --help` lists the exit codes.
+";
 
 /// The name of the label file written.
 pub const LABELS: &str = "polycube.labels";
 
 /// What to simplify and how.
 #[derive(clap::Args, Clone, Debug)]
-#[command(after_help = NOTES)]
+#[command(after_help = format!("{NOTES}\n{}", guides::NOTES))]
 pub struct Args {
     /// The mesh, its labels and its tolerances.
     #[command(flatten)]
@@ -161,6 +162,11 @@ impl Args {
         })
     }
 
+    fn inputs(&self) -> Vec<&Path> {
+        let PolycubeArgs { polycube, labels, .. } = &self.mesh;
+        std::iter::once(polycube).chain(&self.shape).chain(labels).map(PathBuf::as_path).collect()
+    }
+
     fn files(&self) -> Files {
         let name = |path: &Path| path.display().to_string();
         Files {
@@ -208,7 +214,7 @@ pub fn work(args: &Args, context: &Context) -> Result<Done> {
     let format = output_format(args, &meshes)?;
     let read = start.elapsed().as_secs_f64();
     let middle = context.stage("read", 0.1, if args.pareto { 0.5 } else { 0.9 });
-    let about = Failure::in_file(&args.mesh.polycube);
+    let about = Failure::in_files(&args.mesh.polycube, args.search.guides.as_deref());
     let (input, mut options) = (meshes.input(), args.options());
     options.guides = args.search.guides(&args.mesh.polycube, &input, &options.tolerance)?;
     let mut result = polycube::simplify::simplify(&input, &options, &middle).map_err(about)?;
@@ -265,11 +271,12 @@ fn write(
     let pareto = args.pareto.then_some(points.as_slice());
     let run =
         RunReport { input: &files, options, output: output_name, report: &result.report, pareto, broken: &broken };
-    output.add("report.json", terminal::to_json(&run)?.as_bytes())?;
+    output.add(REPORT, terminal::to_json(&run)?.as_bytes())?;
     let mut stale = pareto::stale(&args.output);
+    stale.extend(output.meshes_left(&[("polycube", &CellKind::ALL)]));
     if !valid {
         stale.extend([output.path(&name), output.path(LABELS)]);
     }
-    output.publish(&stale, context)?;
+    output.publish(&stale, &args.inputs(), context)?;
     Ok(points)
 }

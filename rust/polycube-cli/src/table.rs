@@ -145,10 +145,14 @@ fn seconds(report: &Report) -> String {
     format!("{:.3} ({}, write {:.3})", s.total, each.join(", "), s.write)
 }
 
-/// A number with at most six decimals and no trailing zeros.
+/// A number with six significant digits, but all digits before the point, and no trailing zeros.
 pub fn short(x: f64) -> String {
-    let text = format!("{x:.6}");
-    text.trim_end_matches('0').trim_end_matches('.').to_owned()
+    let rounded = if x.abs() < 1e6 { format!("{x:.5e}").parse().unwrap_or(x) } else { x.round() };
+    match rounded.abs() {
+        0.0 => "0".to_owned(),
+        size if (1e-5..1e15).contains(&size) => rounded.to_string(),
+        _ => format!("{rounded:e}"),
+    }
 }
 
 #[cfg(test)]
@@ -157,8 +161,10 @@ mod tests {
 
     #[test]
     fn numbers_are_short() {
-        let found = [1.0, 0.37, 100.0, 1.0 / 3.0, 0.0].map(short);
-        assert_eq!(found, ["1", "0.37", "100", "0.333333", "0"]);
+        let found = [1.0, 0.37, 100.0, 1.0 / 3.0, 0.0, -0.0, -20.0 / 3.0].map(short);
+        assert_eq!(found, ["1", "0.37", "100", "0.333333", "0", "0", "-6.66667"]);
+        let found = [1.0 / 7e6, 1e-5 / 3.0, 1e-4 / 3.0, 1234567.4, 1e300, f64::NAN].map(short);
+        assert_eq!(found, ["1.42857e-7", "3.33333e-6", "0.0000333333", "1234567", "1e300", "NaN"]);
     }
 
     #[test]

@@ -3,6 +3,7 @@
 use crate::args::PolycubeArgs;
 use crate::failure::{INVALID, Result};
 use crate::mesh_files::{read_labels, read_meshes};
+use crate::table::short;
 use crate::terminal;
 use clap::ValueHint;
 use polycube::mesh;
@@ -14,9 +15,10 @@ use std::path::PathBuf;
 use std::process::ExitCode;
 
 const NOTES: &str = "\
-Exit codes: 0 valid; 3 violations found; 1 a file cannot be read; 2 wrong usage.
-The rules are checked one after the other, each only where those before it hold, so that one fault is
-reported once and not by all that follows from it.";
+Exit codes: 0 valid; 3 violations found, among them a mesh file that does not follow its format;
+1 a file cannot be read; 2 wrong usage.
+The rules are checked one after the other, each only where those before it hold, so that one fault
+is reported once and not by all that follows from it.";
 
 /// What to check.
 #[derive(clap::Args, Debug)]
@@ -94,7 +96,7 @@ fn unreadable(error: Error, mesh: Subject) -> polycube::Result<Finding> {
 
 fn line(finding: &Finding) -> String {
     let element = finding.element.map(|e| format!("{e}")).unwrap_or_default();
-    let at = finding.at.map(|[x, y, z]| format!(" at ({x}, {y}, {z})")).unwrap_or_default();
+    let at = finding.at.map(|at| format!(" at ({})", at.map(short).join(", "))).unwrap_or_default();
     let colon = if element.is_empty() { "" } else { ": " };
     format!("  {element}{at}{colon}{}\n", finding.message)
 }

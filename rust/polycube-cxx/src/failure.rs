@@ -23,10 +23,11 @@ impl From<Error> for Failure {
 
 impl fmt::Display for Failure {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let Error { kind, place, message, remedy } = &self.0;
+        let Error { kind, file, place, message, remedy } = &self.0;
         let (element, index, second) = place.map_or((0, 0, 0), numbers);
+        let message = file.iter().chain([message]).map(|text| plain(text)).collect::<Vec<_>>().join(": ");
         let s = SEPARATOR;
-        write!(f, "{}{s}{element}{s}{index}{s}{second}{s}{}{s}{}", *kind as u8, plain(message), plain(remedy))
+        write!(f, "{}{s}{element}{s}{index}{s}{second}{s}{message}{s}{}", *kind as u8, plain(remedy))
     }
 }
 

@@ -10,6 +10,8 @@ fn a_failure_has_six_parts() {
     let error = Error::new(ErrorKind::Mismatch, "odd\x1f one\0").at(Place::Edge(3, 8)).remedy("mend it");
     let text = Failure(error).to_string();
     assert_eq!(text.split('\x1f').collect::<Vec<_>>(), ["5", "2", "3", "8", "odd  one ", "mend it"]);
+    let text = Failure(Error::new(ErrorKind::Parse, "cut short").in_file("a.obj")).to_string();
+    assert_eq!(text.split('\x1f').collect::<Vec<_>>(), ["1", "0", "0", "0", "a.obj: cut short", ""]);
 }
 
 #[test]

@@ -67,10 +67,13 @@ impl fmt::Display for Place {
 
 /// What went wrong, where, and how to mend it.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error, serde::Serialize)]
-#[error("{}{message}{}", prefix(.place.as_ref()), suffix(.remedy))]
+#[error("{}{}{message}{}", prefix(.file.as_ref()), prefix(.place.as_ref()), suffix(.remedy))]
 pub struct Error {
     /// Which of the closed set of kinds this is.
     pub kind: ErrorKind,
+    /// The name of the file that is wrong, or of both where they do not go together; nothing for what came from memory, and where
+    /// the message names the file.
+    pub file: Option<String>,
     /// The element concerned, where there is one.
     pub place: Option<Place>,
     /// What is wrong, in plain words.
@@ -79,8 +82,8 @@ pub struct Error {
     pub remedy: String,
 }
 
-fn prefix(place: Option<&Place>) -> String {
-    place.map(|p| format!("{p}: ")).unwrap_or_default()
+fn prefix(of: Option<&impl fmt::Display>) -> String {
+    of.map(|x| format!("{x}: ")).unwrap_or_default()
 }
 
 fn suffix(remedy: &str) -> String {
@@ -90,13 +93,20 @@ fn suffix(remedy: &str) -> String {
 impl Error {
     /// An error of `kind` saying `message`, with no place and no remedy yet.
     pub fn new(kind: ErrorKind, message: impl Into<String>) -> Self {
-        Self { kind, place: None, message: message.into(), remedy: String::new() }
+        Self { kind, file: None, place: None, message: message.into(), remedy: String::new() }
     }
 
     /// The same error, naming the element it is about.
     #[must_use]
     pub fn at(mut self, place: Place) -> Self {
         self.place = Some(place);
+        self
+    }
+
+    /// The same error, naming the file it is in, unless one is named.
+    #[must_use]
+    pub fn in_file(mut self, name: impl fmt::Display) -> Self {
+        self.file.get_or_insert_with(|| name.to_string());
         self
     }
 

@@ -6,15 +6,18 @@ use crate::error::{Error, ErrorKind, Place, Result};
 use crate::layout::{Objective, count};
 use crate::map::morph;
 use crate::mesh::{Mesh, Point};
-use crate::structure::{Arrangement, Edge, Overlaps, Polycube, Tolerance, Violation, placement_of};
+use crate::structure::{Arrangement, Edge, Overlaps, Polycube, Tolerance, placement_of};
 use std::time::Instant;
 
+mod blame;
 mod corners;
 mod fits;
 mod front;
 mod report;
 mod untangle;
 
+pub(crate) use blame::remedy;
+use blame::{blame, first_of_many};
 pub(crate) use corners::Corners;
 pub use fits::LARGEST_COORDINATE;
 pub(crate) use fits::{Misfit, check_fit, check_side};
@@ -135,8 +138,7 @@ pub fn read_structure(input: &Input, tolerance: &Tolerance) -> Result<Polycube> 
 fn read_in_steps(input: &Input, tolerance: &Tolerance, context: &Context) -> Result<Polycube> {
     context.tick(0.0)?;
     check_fit(input)?;
-    let blame = |violations| if is_swapped(input, tolerance) { swapped(violations) } else { first_of(violations) };
-    let polycube = Polycube::new(input.polycube, input.labels, tolerance).map_err(blame)?;
+    let polycube = Polycube::new(input.polycube, input.labels, tolerance).map_err(|v| blame(v, input, tolerance))?;
     context.tick(0.9)?;
     let points = &input.polycube.points;
     let overlaps = Overlaps::of(&polycube);
@@ -152,15 +154,6 @@ fn read_in_steps(input: &Input, tolerance: &Tolerance, context: &Context) -> Res
 fn no_simplicity(simplicity: f64) -> Error {
     Error::new(ErrorKind::Option, format!("{simplicity} is no simplicity"))
         .remedy("give a number from 0, the least displacement, to 1, the fewest blocks")
-}
-
-/// Whether the mesh given as the shape is a polycube.
-fn is_swapped(input: &Input, tolerance: &Tolerance) -> bool {
-    input.shape.is_some_and(|shape| Polycube::new(shape, None, tolerance).is_ok())
-}
-
-fn swapped(violations: Vec<Violation>) -> Error {
-    first_of(violations).remedy("swap the two: what was given as the shape is a polycube, this is none")
 }
 
 /// Simplifies a polycube (paper, Algorithm 1): finds its structure, aligns its corners on the integer
@@ -259,22 +252,6 @@ fn finish(
         result = Some(mesh);
     }
     Ok(Simplified { input: polycube, polycube: result, levels, report, options: options.clone() })
-}
-
-fn first_of(violations: Vec<Violation>) -> Error {
-    let count = violations.len();
-    first_of_many(violations.into_iter().next().unwrap_or(Violation::Empty), count)
-}
-
-/// The first of `count` violations.
-fn first_of_many(first: Violation, count: usize) -> Error {
-    let others = count.saturating_sub(1);
-    let mut error = Error::from(first);
-    if others > 0 {
-        error.message =
-            format!("{}; {others} more like it, which a check lists (command: `polycube validate`)", error.message);
-    }
-    error
 }
 
 /// The objective where none is given: padded blocks for a volume, patches for a surface.

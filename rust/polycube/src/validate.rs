@@ -3,7 +3,7 @@
 use crate::error::{Error, Place};
 use crate::map::flipped;
 use crate::mesh::{Face, Mesh, Point};
-use crate::simplify::{Input, Misfit, check_fit, check_side};
+use crate::simplify::{Input, Misfit, check_fit, check_side, remedy};
 use crate::structure::{Polycube, Tolerance, Violation};
 
 /// Which of the two meshes a finding is about.
@@ -87,6 +87,7 @@ fn misplaced(misfit: Misfit, input: &Input) -> Finding {
 /// What is wrong with the polycube, and its structure if that can be read and nothing touches.
 fn polycube(input: &Input, tolerance: &Tolerance) -> (Vec<Finding>, Option<Polycube>) {
     let mesh = input.polycube;
+    let mut better = None;
     let (mut violations, polycube, labels) = match Polycube::new(mesh, input.labels, tolerance) {
         Ok(polycube) => {
             let labels: Vec<i8> = polycube.labels().map(|l| l.index() as i8).collect();
@@ -94,12 +95,18 @@ fn polycube(input: &Input, tolerance: &Tolerance) -> (Vec<Finding>, Option<Polyc
             let sound = overlaps.is_empty().then_some(polycube);
             (overlaps, sound, labels)
         }
-        Err(violations) => (violations, None, Vec::new()),
+        Err(violations) => {
+            better = remedy(&violations, input, tolerance);
+            (violations, None, Vec::new())
+        }
     };
     let flipped = flipped(mesh, &labels).unwrap_or_default();
     violations.extend(inverted(&flipped.cells));
     let middles = Middles::new(mesh);
     let mut findings = middles.findings(violations.into_iter(), Subject::Polycube);
+    if let Some(better) = better {
+        findings.iter_mut().for_each(|f| better.clone_into(&mut f.remedy));
+    }
     findings.extend(flipped.faces.iter().map(|&face| middles.flipped_face(face)));
     (findings, polycube)
 }

@@ -4,7 +4,7 @@ mod csv;
 mod pairs;
 mod rows;
 
-use crate::args::ToleranceArgs;
+use crate::args::{ToleranceArgs, whole};
 use crate::failure::{FAILURE, Result};
 use crate::mesh_files::read_meshes;
 use crate::output;
@@ -24,15 +24,17 @@ use std::path::PathBuf;
 use std::process::ExitCode;
 
 const NOTES: &str = "\
-Every shape is meshed twice: `without` simplification, the levels of its polycube rounded to the lattice (kept in
-their order where rounding breaks the polycube: see the notes), and `with` it, with about as many hexahedra.
-The gain is the part of the padded blocks (with --surface-only: of the patches) that simplifying saves.
+Every shape is meshed twice: `without` simplification, the levels of its polycube rounded to the
+lattice (kept in their order where rounding breaks the polycube: see the notes), and `with` it,
+with about as many hexahedra. The gain is the part of the padded blocks (with --surface-only: of the
+patches) that simplifying saves.
 
-What cannot be compared gets a line that says why, and the others go on. Exit code 0: all were compared; 1: some were
-not; 2: wrong usage, or no inputs; 130: cancelled, nothing is written.
+What cannot be compared gets a line that says so, and the others go on; standard error says why, and
+so does what is written to a file. Exit code 0: all were compared; 1: some were not; 2: wrong usage,
+or no inputs; 130: cancelled, nothing is written.
 
-List file: a line for each input, a polycube or shape and polycube with a tab between; names are taken from
-the folder of the list. Empty lines and lines that start with # are skipped.";
+List file: a line for each input, a polycube or shape and polycube with a tab between; names are
+taken from the folder of the list. Empty lines and lines that start with # are skipped.";
 
 /// What to compare and how.
 #[derive(clap::Args, Clone, Debug)]
@@ -55,7 +57,7 @@ pub struct Args {
     size: SizeArgs,
 
     /// Layers of hexahedra between the polycube and the surface, 0 to 16
-    #[arg(long, value_name = "N", default_value_t = 1, value_parser = clap::value_parser!(u8).range(0..=16))]
+    #[arg(long, value_name = "N", default_value_t = 1, value_parser = whole::<u8>(0..=16))]
     padding: u8,
 
     /// Leave the hexahedra out
@@ -74,9 +76,9 @@ pub struct Args {
     #[command(flatten)]
     tolerance: ToleranceArgs,
 
-    /// How the comparison is written
-    #[arg(long, value_enum, default_value_t)]
-    format: Format,
+    /// How the comparison is written [default: as the extension of --output says (csv, json, md), else table]
+    #[arg(long, value_enum)]
+    format: Option<Format>,
 
     /// File to write it to [default: standard output]
     #[arg(short, long, value_name = "FILE", value_hint = ValueHint::FilePath)]
@@ -88,10 +90,9 @@ pub struct Args {
 }
 
 /// How a comparison is written.
-#[derive(Clone, Copy, Debug, Default, clap::ValueEnum)]
+#[derive(Clone, Copy, Debug, PartialEq, clap::ValueEnum)]
 enum Format {
     /// For the terminal
-    #[default]
     Table,
     /// One line for each mesh, with times per stage
     Csv,
@@ -115,6 +116,19 @@ struct Row {
 }
 
 impl Args {
+    /// The format asked for, or else that of the file.
+    fn format(&self) -> Format {
+        let extension =
+            self.output.as_ref().and_then(|path| Some(path.extension()?.to_string_lossy().to_ascii_lowercase()));
+        let told = match extension.as_deref() {
+            Some("csv") => Format::Csv,
+            Some("json") => Format::Json,
+            Some("md" | "markdown") => Format::Markdown,
+            _ => Format::Table,
+        };
+        self.format.unwrap_or(told)
+    }
+
     fn options(&self) -> RemeshOptions {
         let simplify = self.choice.set(Options {
             strategy: self.strategy.0,
@@ -131,9 +145,12 @@ pub fn run(args: &Args) -> Result<ExitCode> {
     let pairs = pairs::collect(&args.inputs, &args.pair, args.list.as_deref())?;
     let progress = Progress::start(args.quiet)?;
     let rows = rows_of(&pairs, &args.options(), &progress.context)?;
-    let text = match args.format {
-        Format::Table => rows::text(&rows, Style::Terminal, args.surface_only),
-        Format::Markdown => rows::text(&rows, Style::Markdown, args.surface_only),
+    let format = args.format();
+    // On a terminal the failures stand below the table already.
+    let why = format != Format::Table || args.output.is_some();
+    let text = match format {
+        Format::Table => rows::text(&rows, Style::Terminal, (args.surface_only, why)),
+        Format::Markdown => rows::text(&rows, Style::Markdown, (args.surface_only, why)),
         Format::Csv => csv::text(&rows)?,
         Format::Json => terminal::to_json(&rows)?,
     };

@@ -1,5 +1,6 @@
 //! The pairs of shape and polycube that a command line names.
 
+use crate::mesh_files::read_text;
 use polycube::mesh::Format;
 use polycube::{Error, ErrorKind, Place, Result};
 use std::fs;
@@ -49,7 +50,7 @@ impl Pair {
 pub fn collect(inputs: &[PathBuf], pair: &[PathBuf], list: Option<&Path>) -> Result<Vec<Pair>> {
     let mut pairs = Vec::new();
     for input in inputs {
-        if input.is_dir() { pairs.extend(in_folder(input)?) } else { pairs.push(Pair::of(input)?) }
+        if input.is_dir() { pairs.extend(in_folder(input)?) } else { pairs.push(named(input)?) }
     }
     pairs.extend(pair.chunks_exact(2).map(|p| Pair { shape: p[0].clone(), polycube: p[1].clone() }));
     if let Some(list) = list {
@@ -62,19 +63,31 @@ pub fn collect(inputs: &[PathBuf], pair: &[PathBuf], list: Option<&Path>) -> Res
     Ok(pairs)
 }
 
-/// The polycubes in a folder that have a known extension and a shape beside them.
+/// The pair of a polycube named by the user.
+fn named(polycube: &Path) -> Result<Pair> {
+    Pair::of(polycube).map_err(|error| match polycube.exists() {
+        true => error,
+        false => Error::new(ErrorKind::Io, format!("{} does not exist", polycube.display())).remedy("check the path"),
+    })
+}
+
+/// The polycubes in a folder, at least one, that have a known extension and a shape beside them.
 fn in_folder(folder: &Path) -> Result<Vec<Pair>> {
     let failed = |e| Error::new(ErrorKind::Io, format!("cannot read the folder {}: {e}", folder.display()));
     let entries = fs::read_dir(folder).map_err(failed)?.collect::<std::io::Result<Vec<_>>>().map_err(failed)?;
     let mut files: Vec<PathBuf> = entries.into_iter().map(|e| e.path()).filter(|p| p.is_file()).collect();
     files.sort();
     let named = files.iter().filter(|p| Format::from_path(p).is_ok()).filter_map(|p| Pair::of(p).ok());
-    Ok(named.filter(|p| p.shape.is_file()).collect())
+    let pairs: Vec<Pair> = named.filter(|p| p.shape.is_file()).collect();
+    if pairs.is_empty() {
+        let error = Error::new(ErrorKind::Option, format!("there are no pairs in the folder {}", folder.display()));
+        return Err(error.remedy("name them NAME.polycube.EXT and NAME.shape.EXT, or use --pair SHAPE POLYCUBE"));
+    }
+    Ok(pairs)
 }
 
 fn in_list(list: &Path) -> Result<Vec<Pair>> {
-    let failed = |e| Error::new(ErrorKind::Io, format!("cannot read {}: {e}", list.display()));
-    let text = fs::read_to_string(list).map_err(failed)?;
+    let text = read_text(list, "list of polycubes or pairs")?;
     let folder = list.parent().unwrap_or(Path::new(""));
     let lines = (1..).zip(text.lines().map(str::trim)).filter(|(_, l)| !l.is_empty() && !l.starts_with('#'));
     lines.map(|(number, line)| in_line(folder, line).map_err(|e| in_place(e, list, number))).collect()
@@ -91,8 +104,7 @@ fn in_line(folder: &Path, line: &str) -> Result<Pair> {
 
 fn in_place(mut error: Error, list: &Path, line: usize) -> Error {
     error.kind = ErrorKind::Parse;
-    error.message = format!("{} in {}", error.message, list.display());
-    error.at(Place::Line(line))
+    error.in_file(list.display()).at(Place::Line(line))
 }
 
 #[cfg(test)]

@@ -22,8 +22,8 @@ const HEADER: [&str; 14] = [
     "total",
 ];
 
-/// Two lines for every model, then the mean gain, then what went wrong and what was not as asked.
-pub fn text(rows: &[Row], style: Style, surface_only: bool) -> String {
+/// Two lines for every model, then the mean gain, then what was not as asked and, if `why` is to be told, what went wrong.
+pub fn text(rows: &[Row], style: Style, (surface_only, why): (bool, bool)) -> String {
     let lines = rows.iter().flat_map(|row| match &row.comparison {
         Some(found) => lines(&row.model, found, surface_only).to_vec(),
         None => vec![failed(&row.model)],
@@ -34,13 +34,17 @@ pub fn text(rows: &[Row], style: Style, surface_only: bool) -> String {
     if !gains.is_empty() {
         let mean = gains.iter().sum::<f64>() / gains.len() as f64;
         let what = if surface_only { "patches" } else { "padded blocks" };
-        text += &format!("{bullet}{mean:.0} % fewer {what} on average over {} models\n", gains.len());
+        let over = match gains.len() {
+            1 => String::new(),
+            n => format!(" on average over {n} models"),
+        };
+        text += &format!("{bullet}{mean:.0} % fewer {what}{over}\n");
     }
     text += &format!(
         "{bullet}SJ: scaled Jacobian; singular: irregular vertices of the surface; Hausdorff: in percent of the shape's \
          diagonal; simplify, total: seconds\n"
     );
-    for line in rows.iter().flat_map(remarks) {
+    for line in rows.iter().flat_map(|row| remarks(row, why)) {
         text += &format!("{bullet}{line}\n");
     }
     text
@@ -82,9 +86,9 @@ fn gain(found: &Comparison, surface_only: bool) -> f64 {
 }
 
 /// Errors and notes of one model.
-fn remarks(row: &Row) -> Vec<String> {
+fn remarks(row: &Row, why: bool) -> Vec<String> {
     let model = &row.model;
-    let error = row.error.iter().map(|e| format!("{model}: error: {e}"));
+    let error = row.error.iter().filter(|_| why).map(|e| format!("{model}: error: {e}"));
     let notes = |name: &'static str, mesh: &Meshing| {
         let line = |note: &String| format!("{model}, {name}: {note}");
         mesh.notes.iter().map(line).collect::<Vec<_>>()

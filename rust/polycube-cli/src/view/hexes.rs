@@ -18,7 +18,7 @@ pub struct Hexes {
 
 /// Reads a mesh of hexahedra.
 pub fn read(file: &Path) -> Result<Hexes> {
-    let mesh = mesh::read(file)?;
+    let mesh = mesh::read(file).map_err(Failure::in_reading)?;
     let kind = mesh.cells.kind();
     let Cells::Hexahedra(cells) = mesh.cells else {
         let error = Error::new(ErrorKind::Mesh, format!("this is a mesh of {kind}, not of hexahedra"));

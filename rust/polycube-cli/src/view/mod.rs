@@ -7,7 +7,7 @@ mod picture;
 mod raster;
 mod scene;
 
-use crate::args::{PolycubeArgs, fraction};
+use crate::args::{PolycubeArgs, fraction, whole};
 use crate::failure::{Failure, Result};
 use crate::mesh_files::MeshFiles;
 use crate::output;
@@ -22,8 +22,9 @@ use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 
 const NOTES: &str = "\
-The page is one file that needs no network: open it in any browser. It shows the layout on the polycube and on the shape,
-for the input, after each round of the simplification, and for the result. The picture shows input and result.";
+The page is one file that needs no network: open it in any browser. It shows the layout on the
+polycube and on the shape, for the input, after each round of the simplification, and for the
+result. The picture shows input and result.";
 
 /// What to show.
 #[derive(clap::Args, Clone, Debug)]
@@ -46,11 +47,11 @@ pub struct Args {
     output: PathBuf,
 
     /// A picture to write, too: PNG, drawn without a display
-    #[arg(long, value_name = "PICTURE", value_hint = ValueHint::FilePath)]
+    #[arg(long, value_name = "PICTURE", value_parser = picture_file, value_hint = ValueHint::FilePath)]
     png: Option<PathBuf>,
 
     /// Width of each of the two or four parts of the picture, in pixels; they are square
-    #[arg(long, value_name = "PIXELS", value_parser = clap::value_parser!(u32).range(16..=4096), default_value_t = 640)]
+    #[arg(long, value_name = "PIXELS", value_parser = whole::<u32>(16..=4096), default_value_t = 640, requires = "png")]
     png_size: u32,
 
     /// The axis that points up
@@ -68,6 +69,13 @@ pub struct Args {
     /// Print nothing but errors
     #[arg(short, long)]
     quiet: bool,
+}
+
+/// A file whose name says that it is a PNG picture.
+fn picture_file(text: &str) -> std::result::Result<PathBuf, String> {
+    let path = PathBuf::from(text);
+    let is_png = path.extension().is_some_and(|e| e.eq_ignore_ascii_case("png"));
+    if is_png { Ok(path) } else { Err("pictures are PNG: name a file with the extension .png".to_owned()) }
 }
 
 /// An axis.

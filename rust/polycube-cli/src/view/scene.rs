@@ -107,7 +107,9 @@ impl Scene {
         for (done, (round, counts, placement)) in steps.into_iter().enumerate() {
             context.tick(0.1 + 0.9 * done as f64 / total as f64)?;
             if last.as_ref() != Some(&placement) {
-                self.layouts.push(layout(polycube, mesh, &placement, scale)?);
+                let part = |done: usize| 0.1 + 0.9 * done as f64 / total as f64;
+                let fitting = context.stage("layouts", part(done), part(done + 1));
+                self.layouts.push(layout(polycube, mesh, &placement, scale, &fitting)?);
             }
             self.steps.push(Step { round, counts, layout: self.layouts.len() - 1 });
             last = Some(placement);
@@ -116,8 +118,8 @@ impl Scene {
     }
 }
 
-fn layout(polycube: &Polycube, mesh: &Mesh, placement: &[f64], scale: f64) -> Result<Layout> {
-    let fitted = fit(polycube, mesh, placement, scale, &Context::default())?;
+fn layout(polycube: &Polycube, mesh: &Mesh, placement: &[f64], scale: f64, context: &Context) -> Result<Layout> {
+    let fitted = fit(polycube, mesh, placement, scale, context)?;
     let mut pieces = Pieces::new(&Arrangement::new(&polycube.structure, placement));
     pieces.planes.iter_mut().flatten().for_each(|x| *x /= scale);
     Ok(Layout { points: fitted.points.iter().map(|p| p / scale).collect(), pieces })

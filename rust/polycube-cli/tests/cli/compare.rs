@@ -64,6 +64,7 @@ fn what_fails_has_a_line_and_the_others_go_on() {
     sandbox.write("list", "# shape, tab, polycube\nbent.obj\tcube.obj\nnone.polycube.off\n");
     let run = sandbox.run("compare bad.polycube.obj --list list --hexes 300 -q --surface-only --format csv");
     assert_eq!(run.code, 1);
+    assert_eq!(run.err.matches("error: ").count(), 2, "{}", run.err);
     assert!(run.err.contains("bad.obj") && run.err.contains("none.polycube.off"), "{}", run.err);
     let lines: Vec<Vec<&str>> = run.out.lines().map(|l| l.split(',').collect()).collect();
     let column = |name: &str| lines[0].iter().position(|n| *n == name).unwrap();
@@ -82,9 +83,10 @@ fn tables_for_the_terminal_and_for_documents() {
     let sandbox = sandbox();
     let line = "compare --pair bent.obj cube.obj --hexes 300 -q --surface-only";
     let text = sandbox.ok(line);
-    assert!(["model", "without", "with", "cube.obj", "fewer patches"].iter().all(|w| text.contains(w)), "{text}");
+    assert!(["model", "without", "with", "cube.obj", "fewer patches\n"].iter().all(|w| text.contains(w)), "{text}");
     assert_eq!(sandbox.ok(&format!("{line} --format markdown -o new/table.md")), "");
     let text = String::from_utf8(sandbox.read("new/table.md")).unwrap();
+    assert!(text.starts_with('|'), "{text}");
     let table: Vec<&str> = text.lines().take_while(|l| !l.is_empty()).collect();
     assert_eq!(table.len(), 4, "{text}");
     let columns = |l: &&str| l.matches('|').count();
@@ -93,11 +95,31 @@ fn tables_for_the_terminal_and_for_documents() {
 }
 
 #[test]
+fn the_format_follows_the_file_and_a_failure_is_told_once() {
+    let sandbox = sandbox();
+    let line = "compare --pair none.obj none.obj -q";
+    for (file, start) in [("t.csv", "model,"), ("t.MD", "|"), ("t.json", "["), ("t.txt", " model")] {
+        let run = sandbox.run(&format!("{line} -o {file}"));
+        assert_eq!((run.code, run.out.as_str()), (1, ""), "{}", run.err);
+        let text = String::from_utf8(sandbox.read(file)).unwrap();
+        assert!(text.starts_with(start) && text.contains("cannot read none.obj"), "{file}: {text}");
+    }
+    sandbox.run(&format!("{line} -o u.csv --format json"));
+    assert!(sandbox.read("u.csv").starts_with(b"["));
+    let run = sandbox.run(line);
+    assert!(run.out.contains("failed") && !run.out.contains("cannot read"), "{}", run.out);
+    assert_eq!(run.err.matches("cannot read none.obj").count(), 1, "{}", run.err);
+}
+
+#[test]
 fn wrong_usage_is_told_before_any_work() {
     let sandbox = sandbox();
     sandbox.fails("compare", 2, &["nothing to compare", "--pair"]);
     sandbox.fails("compare cube.obj", 2, &["NAME.polycube.EXT"]);
     sandbox.fails("compare --pair cube.obj", 2, &["--pair"]);
+    sandbox.fails("compare nodir", 1, &["nodir does not exist", "check the path"]);
+    std::fs::create_dir(sandbox.path("bare")).unwrap();
+    sandbox.fails("compare pairs bare", 2, &["no pairs in the folder bare", "NAME.polycube.EXT and NAME.shape.EXT"]);
     sandbox.fails("compare --list none", 1, &["none"]);
     sandbox.fails("compare pairs --hexes 9 --scale 1", 2, &["cannot be used"]);
     sandbox.write("list", "a\tb\tc\n");

@@ -69,10 +69,10 @@ fn guides_that_cannot_be_say_why() {
     let sandbox = Sandbox::new();
     sandbox.write_mesh("l.obj", &coarse(Example::SteppedL, CellKind::Quads));
     for (text, code, words) in [
-        ("{\"fixed\": [999]}", 2, ["facet 999", "from 0 to"]),
-        ("{\"fixed_labels\": [6]}", 2, ["label 6", "from 0 to 5"]),
-        ("{\n\"fixd\": [1]}", 1, ["line 2", "fixd"]),
-        ("{\"symmetry\": [{\"axis\": 0, \"at\": 123.0}]}", 2, ["X = 123", "mirror image"]),
+        ("{\"fixed\": [999]}", 2, ["error: guides.json: facet 999: ", "from 0 to"]),
+        ("{\"fixed_labels\": [6]}", 2, ["error: guides.json: there is no label 6", "from 0 to 5"]),
+        ("{\n\"fixd\": [1]}", 1, ["error: guides.json: line 2: ", "simplify --help"]),
+        ("{\"symmetry\": [{\"axis\": 0, \"at\": 123.0}]}", 2, ["guides.json: ", "X = 123"]),
     ] {
         sandbox.write("guides.json", text);
         sandbox.fails("simplify l.obj -o out --guides guides.json", code, &words);

@@ -23,6 +23,10 @@ fn everything_found_is_told() {
         assert!(text.contains(line), "{line}\n{text}");
     }
     let found = inspect(&sandbox, "spikes.obj");
+    let listed = inspect(&sandbox, "spikes.obj --facets")["facet_list"].clone();
+    let first: Vec<u64> = listed.as_array().unwrap().iter().map(|f| f["face"].as_u64().unwrap()).collect();
+    assert!(first.contains(&0) && first.len() == 36, "{first:?}");
+    assert_eq!(first.iter().collect::<std::collections::BTreeSet<_>>().len(), 36, "no two facets share a face");
     assert_eq!(found["corners"], 56);
     assert_eq!(found["edges"], 84);
     assert_eq!(found["charts"], json!({"+X": 6, "-X": 6, "+Y": 6, "-Y": 6, "+Z": 6, "-Z": 6}));

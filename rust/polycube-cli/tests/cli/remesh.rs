@@ -57,6 +57,22 @@ fn a_surface_alone_has_no_hexahedra() {
 }
 
 #[test]
+fn no_mesh_of_an_earlier_run_stays() {
+    let sandbox = sandbox(CellKind::Triangles, "obj");
+    let (polycube, shape) = example(Example::CubeSpikes, 1, CellKind::Triangles).unwrap();
+    sandbox.write_mesh("cube.ply", &polycube);
+    sandbox.write_mesh("shape.ply", &shape);
+    let remesh = |line: &str| {
+        let run = sandbox.run(&format!("remesh {line} -o out --quiet --max-hausdorff 50"));
+        assert!(matches!(run.code, 0 | 4), "{line}: {}", run.err);
+    };
+    remesh("shape.obj --polycube cube.obj --hexes 400 --format vtk");
+    assert!(sandbox.names("out").contains(&"hexes.vtk".to_owned()));
+    remesh("shape.ply --polycube cube.ply --surface-only");
+    assert_eq!(sandbox.names("out"), ["layout.obj", "polycube.labels", "polycube.ply", "quads.obj", "report.json"]);
+}
+
+#[test]
 fn a_surface_too_far_away_is_written_with_exit_code_4() {
     let sandbox = sandbox(CellKind::Triangles, "obj");
     let line = "remesh shape.obj --polycube cube.obj -o out --hexes 400 --max-hausdorff 0.0001";

@@ -54,7 +54,12 @@ fn the_report_has_every_promised_key() {
     assert!(report["bound"]["count"].as_u64() <= count, "the bound is at most what was reached");
     assert_eq!(report["front"][0]["count"].as_u64(), count, "the front begins with the fewest");
     assert_eq!((&report["scale"], &report["output"]), (&2.0.into(), &"polycube.obj".into()));
-    assert_eq!(report["options"]["lambda_min"], 0.25);
+    let options = &report["options"];
+    assert_eq!(
+        (&options["lambda_min"], &options["scale"], &options["simplicity"]),
+        (&0.25.into(), &2.0.into(), &1.0.into())
+    );
+    assert!(options["effort"]["time_limit"].is_null());
     for count in ["surface_patches", "blocks", "blocks_padded"] {
         let [before, after] = ["before", "after"].map(|when| report[when][count].as_u64().unwrap());
         assert!(after < before, "{count}");
@@ -129,6 +134,33 @@ fn naive_rounding_that_breaks_is_told_and_not_written() {
     assert!(sandbox.json("out/report.json")["output"].is_null());
     sandbox.ok("simplify l.obj -o out --scale 0.05");
     assert_eq!(sandbox.results("out"), "polycube.obj");
+}
+
+#[test]
+fn all_options_are_in_the_report() {
+    let sandbox = Sandbox::new();
+    sandbox.write_mesh("l.obj", &coarse(Example::SteppedL, CellKind::Quads));
+    sandbox.run("simplify l.obj -o out --simplicity 0.5 --time-limit 90.5 --steps 9 --max-displacement 40");
+    let options = &sandbox.json("out/report.json")["options"];
+    assert_eq!((&options["simplicity"], &options["max_displacement"]), (&0.5.into(), &40.0.into()));
+    assert_eq!((&options["effort"]["time_limit"], &options["effort"]["steps_per_level"]), (&90.5.into(), &9.into()));
+    assert!(options["scale"].is_null());
+}
+
+#[test]
+fn no_mesh_of_an_earlier_run_stays_and_no_input_goes() {
+    let sandbox = Sandbox::new();
+    sandbox.write_mesh("l.obj", &coarse(Example::SteppedL, CellKind::Quads));
+    sandbox.ok("simplify l.obj -o out --format vtk");
+    sandbox.ok("simplify l.obj -o out --format ply");
+    assert_eq!(sandbox.results("out"), "polycube.ply");
+    sandbox.ok("simplify out/polycube.ply --labels out/polycube.labels -o out --format obj");
+    assert_eq!(sandbox.names("out").len(), 5, "{:?}", sandbox.names("out"));
+    assert!(sandbox.names("out").contains(&"polycube.ply".to_owned()), "it was read");
+    std::fs::create_dir(sandbox.path("mine")).unwrap();
+    sandbox.write("mine/polycube.off", "");
+    sandbox.ok("simplify l.obj -o mine");
+    assert_eq!(sandbox.names("mine").len(), 5, "what lies in a folder that is no result is not ours");
 }
 
 #[test]

@@ -135,6 +135,8 @@ fn what_cannot_be_shown_is_told() {
     sandbox.write_mesh("ring.obj", &coarse(Example::Ring, CellKind::Quads));
     sandbox.fails("view l.obj", 2, &["--output"]);
     sandbox.fails("view l.obj -o page.html --png p.png --png-size 5", 2, &["16"]);
+    sandbox.fails("view l.obj -o page.html --png p.jpg", 2, &["pictures are PNG", ".png"]);
+    sandbox.fails("view l.obj -o page.html --png-size 100", 2, &["--png"]);
     sandbox.fails("view l.obj --shape ring.obj -o page.html", 3, &["the shape 838"]);
     sandbox.fails("view l.obj --hexes l.obj -o page.html", 3, &["not of hexahedra"]);
     sandbox.fails("view none.obj -o page.html", 1, &["none.obj"]);

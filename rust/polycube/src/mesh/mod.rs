@@ -10,8 +10,8 @@ mod simplices;
 mod stars;
 
 pub use io::{
-    CellField, FieldValues, Format, parse_labels, read, read_bytes, read_labels, read_pair, write, write_atomically,
-    write_bytes, write_labels,
+    CellField, FieldValues, Format, Staged, parse_labels, read, read_bytes, read_labels, read_pair, write,
+    write_atomically, write_bytes, write_labels,
 };
 pub use simplices::{Face, Simplices};
 pub(crate) use stars::Stars;

@@ -95,7 +95,7 @@ impl Report {
 
     /// Lists the flipped elements and measures the distortion anew, after `mesh` was changed.
     pub(crate) fn rejudge(&mut self, input: &Input, polycube: &Polycube, mesh: &Mesh) -> Result<()> {
-        self.notes.retain(|note| !note.ends_with(FLIPPED_NOTE));
+        self.notes.retain(|note| !note.contains(FLIPPED_NOTE));
         if let Some([before, _]) = self.distortion {
             let after = distortion(input.shape.unwrap_or(input.polycube), mesh);
             self.measured(after.map(|after| [before, after]));
@@ -119,7 +119,8 @@ impl Report {
         self.flipped = flipped(mesh, &labels)?;
         self.flipped_elements = self.flipped.cells.len() + self.flipped.faces.len();
         if self.flipped_elements > 0 {
-            self.notes.push(format!("{}{FLIPPED_NOTE}", self.flipped_elements));
+            let remedy = if self.strategy == Strategy::Best { "; lower the simplicity to move less" } else { "" };
+            self.notes.push(format!("{}{FLIPPED_NOTE}{remedy}", self.flipped_elements));
         }
         Ok(())
     }

@@ -122,7 +122,7 @@ fn label_faces(
         let cosine = own.map_or(cosine, along);
         worst = worst.min(cosine);
         if own.is_none() && cosine < least && degrees(cosine) > tolerance.degrees {
-            violations.push(Violation::SkewFace { face, degrees: degrees(cosine) });
+            violations.push(Violation::SkewFace { face, degrees: degrees(cosine), limit: tolerance.degrees });
         }
     }
     if violations.is_empty() { Ok((labels, degrees(worst))) } else { Err(violations) }

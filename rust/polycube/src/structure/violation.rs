@@ -59,6 +59,8 @@ pub enum Violation {
         face: u32,
         /// Angle to the nearest axis, in degrees.
         degrees: f64,
+        /// The largest that was allowed.
+        limit: f64,
     },
     /// Neighbouring charts of opposite label.
     OppositeCharts {
@@ -186,7 +188,9 @@ impl Violation {
             Self::NonManifoldEdge { .. } => "more than two faces meet here".into(),
             Self::InconsistentOrientation { .. } => "the two faces here are oriented against each other".into(),
             Self::NonManifoldVertex { .. } => "several sheets of the surface touch at this vertex".into(),
-            Self::SkewFace { degrees, .. } => format!("the face is {degrees:.1} degrees off the nearest axis"),
+            Self::SkewFace { degrees, limit, .. } => {
+                format!("the face is {degrees:.1} degrees off the nearest axis, more than {limit}")
+            }
             Self::OppositeCharts { .. } => "two charts of opposite label meet here".into(),
             Self::IncompleteCorner { .. } => "the charts at this corner do not cover all three axes".into(),
             Self::TooFewCorners { corners, .. } => {

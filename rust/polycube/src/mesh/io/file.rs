@@ -10,8 +10,9 @@ pub(super) fn read_file(path: &Path) -> Result<Vec<u8>> {
     let fail = |error: io::Error| io_error("read", path, &error);
     // A device such as /dev/zero never ends.
     if !fs::metadata(path).map_err(fail)?.is_file() {
-        let message = format!("{} is not a file", path.display());
-        return Err(Error::new(ErrorKind::Io, message).remedy("name a regular file"));
+        let what = if path.is_dir() { "a folder" } else { "not a regular file" };
+        let message = format!("{} is {what}", path.display());
+        return Err(Error::new(ErrorKind::Io, message).remedy("name a file"));
     }
     fs::read(path).map_err(fail)
 }
@@ -38,13 +39,11 @@ fn replace(path: &Path, bytes: &[u8]) -> io::Result<()> {
         _ => followed(path)?,
     };
     let folder = folder_of(&target);
-    let mut file = temporary(&folder)?;
-    file.write_all(bytes)?;
+    let file = Staged::new(&folder, bytes)?;
     if let Some(data) = old {
-        file.as_file().set_permissions(data.permissions())?;
+        file.0.as_file().set_permissions(data.permissions())?;
     }
-    file.as_file().sync_all()?;
-    file.persist(&target).map_err(|error| error.error)?;
+    file.publish(&target)?;
     // Makes the new name durable too; where folders cannot be opened or synced the file is complete all the same.
     if let Ok(folder) = fs::File::open(&folder) {
         let _ = folder.sync_all();
@@ -72,13 +71,34 @@ fn folder_of(path: &Path) -> PathBuf {
     }
 }
 
-fn temporary(folder: &Path) -> io::Result<tempfile::NamedTempFile> {
-    let mut builder = tempfile::Builder::new();
-    builder.prefix(".polycube-").suffix(".tmp");
-    // A temporary file is private by default, but this one becomes an ordinary file.
-    #[cfg(unix)]
-    builder.permissions(std::os::unix::fs::PermissionsExt::from_mode(0o666));
-    builder.tempfile_in(folder)
+/// A file that is complete on the disk under a temporary name, until it gets its own. It goes away where it never does.
+#[derive(Debug)]
+pub struct Staged(tempfile::NamedTempFile);
+
+impl Staged {
+    /// Writes the bytes to a new file in `folder`.
+    ///
+    /// # Errors
+    /// What the operating system says. No file is left then.
+    pub fn new(folder: &Path, bytes: &[u8]) -> io::Result<Self> {
+        let mut builder = tempfile::Builder::new();
+        builder.prefix(".polycube-").suffix(".tmp");
+        // A temporary file is private by default, but this one becomes an ordinary file.
+        #[cfg(unix)]
+        builder.permissions(std::os::unix::fs::PermissionsExt::from_mode(0o666));
+        let mut file = builder.tempfile_in(folder)?;
+        file.write_all(bytes)?;
+        file.as_file().sync_all()?;
+        Ok(Self(file))
+    }
+
+    /// Gives the file its name, in the same folder or another of the same disk, in place of any older file.
+    ///
+    /// # Errors
+    /// What the operating system says. The older file is then as it was.
+    pub fn publish(self, path: &Path) -> io::Result<()> {
+        self.0.persist(path).map(drop).map_err(|error| error.error)
+    }
 }
 
 fn io_error(action: &str, path: &Path, error: &io::Error) -> Error {

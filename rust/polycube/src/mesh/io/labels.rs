@@ -1,7 +1,6 @@
 //! Facet labels, one per face: -1 for none, 0..=5 for +x, -x, +y, -y, +z, -z.
 
 use super::file::{read_file, write_atomically};
-use super::in_file;
 use super::scan::{number, quoted, without_mark};
 use crate::error::{Error, ErrorKind, Place, Result};
 use std::path::Path;
@@ -12,7 +11,7 @@ use std::path::Path;
 /// [`ErrorKind::Io`] when the file cannot be read, [`ErrorKind::Parse`] with the line when a line is not
 /// a label, [`ErrorKind::Mismatch`] when there are not `face_count` of them.
 pub fn read_labels(path: &Path, face_count: usize) -> Result<Vec<i8>> {
-    parse_labels(&read_file(path)?, face_count).map_err(in_file(path))
+    parse_labels(&read_file(path)?, face_count).map_err(|e| e.in_file(path.display()))
 }
 
 /// Reads labels as [`read_labels`] does, from the bytes of the file.

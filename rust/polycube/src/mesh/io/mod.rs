@@ -15,6 +15,7 @@ mod ply;
 mod ply_header;
 mod scalar;
 mod scan;
+mod sniff;
 mod soup;
 mod stl;
 mod text;
@@ -27,7 +28,7 @@ mod vtu_data;
 mod tests;
 
 pub use field::{CellField, FieldValues};
-pub use file::write_atomically;
+pub use file::{Staged, write_atomically};
 pub use format::Format;
 pub use labels::{parse_labels, read_labels, write_labels};
 pub use pair::read_pair;
@@ -59,8 +60,36 @@ use std::path::Path;
 /// malformed; [`ErrorKind::Mesh`] when it holds no cells or a coordinate that is not finite;
 /// [`ErrorKind::Unsupported`] for other formats and other cells, or tetrahedra mixed with hexahedra.
 pub fn read(path: &Path) -> Result<Mesh> {
-    let format = Format::from_path(path)?;
-    read_bytes(format, &file::read_file(path)?).map_err(in_file(path))
+    let format = format_of(path)?;
+    read_as(format, path, &file::read_file(path)?)
+}
+
+/// The format of a file to read.
+fn format_of(path: &Path) -> Result<Format> {
+    if path.is_dir() {
+        let message = format!("{} is a folder", path.display());
+        return Err(Error::new(ErrorKind::Io, message).remedy("name a mesh file"));
+    }
+    Format::from_path(path)
+}
+
+/// Reads the bytes of the file at `path`.
+fn read_as(format: Format, path: &Path, bytes: &[u8]) -> Result<Mesh> {
+    read_bytes(format, bytes).map_err(about(format, path, bytes))
+}
+
+/// Names the file that is wrong, and tells where its contents are those of another format.
+fn about<'a>(format: Format, path: &'a Path, bytes: &'a [u8]) -> impl Fn(Error) -> Error + 'a {
+    move |mut error| {
+        if let Some(found) = sniff::format(bytes).filter(|&found| found != format) {
+            error.remedy =
+                format!("is it another format under this name? It begins as a .{found} file does: rename it");
+        } else if error.kind == ErrorKind::Parse && error.remedy.is_empty() {
+            error.remedy =
+                "the file does not follow the format that its extension names; export it again or rename it".into();
+        }
+        error.in_file(path.display())
+    }
 }
 
 /// Reads a mesh as [`read`] does, from the bytes of a file.
@@ -126,14 +155,6 @@ pub fn write_bytes(format: Format, mesh: &Mesh, fields: &[CellField]) -> Result<
         Format::Medit => Ok(medit::write(mesh, fields)),
         Format::Vtk => Ok(vtk::write(mesh, fields)),
         Format::Vtu => Ok(vtu::write(mesh, fields)),
-    }
-}
-
-/// Adds the name of the file to what is wrong in it.
-fn in_file(path: &Path) -> impl Fn(Error) -> Error {
-    move |mut error| {
-        error.message = format!("{} in {}", error.message, path.display());
-        error
     }
 }
 

@@ -1,6 +1,6 @@
 //! A polycube and the shape it was deformed from.
 
-use super::{Format, file, in_file, read_bytes, stl};
+use super::{Format, about, file, format_of, read_as, stl};
 use crate::error::{Error, ErrorKind, Place, Result};
 use crate::mesh::Mesh;
 use std::path::Path;
@@ -15,16 +15,17 @@ use std::path::Path;
 /// As [`read`](super::read), and [`ErrorKind::Mismatch`] naming the first difference when the meshes do not
 /// have the same kind of cells, as many vertices, and the same cells in the same order.
 pub fn read_pair(polycube: &Path, shape: &Path) -> Result<(Mesh, Mesh)> {
-    let formats = (Format::from_path(polycube)?, Format::from_path(shape)?);
+    let formats = (format_of(polycube)?, format_of(shape)?);
     let (a, b) = (file::read_file(polycube)?, file::read_file(shape)?);
+    let in_both = |error: Error| error.in_file(format_args!("{} and {}", polycube.display(), shape.display()));
     if formats == (Format::Stl, Format::Stl) {
-        let a = stl::corners(&a).map_err(in_file(polycube))?;
-        let b = stl::corners(&b).map_err(in_file(shape))?;
-        return stl::pair(&a, &b);
+        let a = stl::corners(&a).map_err(about(Format::Stl, polycube, &a))?;
+        let b = stl::corners(&b).map_err(about(Format::Stl, shape, &b))?;
+        return stl::pair(&a, &b).map_err(in_both);
     }
-    let a = read_bytes(formats.0, &a).map_err(in_file(polycube))?;
-    let b = read_bytes(formats.1, &b).map_err(in_file(shape))?;
-    compare(&a, &b)?;
+    let a = read_as(formats.0, polycube, &a)?;
+    let b = read_as(formats.1, shape, &b)?;
+    compare(&a, &b).map_err(in_both)?;
     Ok((a, b))
 }
 

@@ -135,6 +135,11 @@ fn a_file_is_replaced_whole_or_not_at_all() {
     assert_eq!(error.kind, ErrorKind::Io);
     let error = read(&folder.path().join("nowhere.obj")).unwrap_err();
     assert!(error.message.contains("nowhere.obj") && error.remedy.contains("path"));
+    fs::write(&path, "v 0 0 0\nv 0 x 0\n").unwrap();
+    let error = read(&path).unwrap_err();
+    assert_eq!((error.file.as_deref(), error.place), (path.to_str(), Some(Place::Line(2))));
+    let start = format!("{}: line 2: expected a coordinate", path.display());
+    assert!(error.to_string().starts_with(&start), "{error}");
 }
 
 #[cfg(unix)]
