@@ -18,7 +18,7 @@ const STACK: usize = 8 << 20;
 /// An error, and the middle of the element it is about.
 #[derive(Clone)]
 pub struct Failure {
-    error: Error,
+    error: Box<Error>,
     at: Option<[f64; 3]>,
 }
 
@@ -26,13 +26,13 @@ impl Failure {
     /// An error about an element of `mesh`.
     pub fn new(error: Error, mesh: &polycube::mesh::Mesh) -> Self {
         let at = error.place.and_then(|place| mesh.middle(place));
-        Self { error, at }
+        Self { error: Box::new(error), at }
     }
 }
 
 impl From<Error> for Failure {
     fn from(error: Error) -> Self {
-        Self { error, at: None }
+        Self { error: Box::new(error), at: None }
     }
 }
 

@@ -1,7 +1,7 @@
 //! The whole way, on generated pairs and on real ones.
 
 use super::{cells, distinct, quality};
-use crate::align::Strategy;
+use crate::align::{Effort, Strategy};
 use crate::context::Context;
 use crate::error::ErrorKind;
 use crate::generate::{Example, example};
@@ -114,6 +114,34 @@ fn the_fewest_blocks_are_meshed_where_that_is_asked_for_and_good_ones_where_not(
             assert!(blocks(&told) <= front[chosen].count && blocks(&good) >= front[0].count, "{name}");
         }
     }
+}
+
+/// Of each example the fewest patches there are fold the map (the cube with spikes apart).
+#[test]
+fn surfaces_are_not_folded_where_more_patches_help() {
+    for name in Example::ALL {
+        let pair = example(name, 1, CellKind::Triangles).unwrap();
+        let quick = Options { effort: Effort { steps_per_level: 50, ..Effort::default() }, ..Options::default() };
+        let options = RemeshOptions { simplify: quick, surface_only: true, ..options(Strategy::Best, 3000) };
+        let Remeshed { quads, report, .. } = run(&pair, &options);
+        let inverted = quads.scaled_jacobian().iter().filter(|q| **q <= 0.0).count();
+        assert_eq!((report.folded, report.inverted_quads, inverted), (0, 0, 0), "{name}");
+        assert!(report.hausdorff_percent < 1.0, "{name}: {} %", report.hausdorff_percent);
+    }
+}
+
+#[test]
+fn a_surface_that_is_folded_as_asked_says_so() {
+    let pair = example(Example::Ring, 1, CellKind::Triangles).unwrap();
+    let fewest = Options { simplicity: Some(1.0), ..Options::default() };
+    let options = RemeshOptions { simplify: fewest, surface_only: true, ..options(Strategy::Best, 3000) };
+    let report = run(&pair, &options).report;
+    assert!(report.folded > 0 && report.inverted_quads > 0 && !report.is_good());
+    let notes = report.simplify.notes.join("; ");
+    assert!(
+        notes.contains("folded") && notes.contains("lower the simplicity") && !notes.contains("near enough"),
+        "{notes}"
+    );
 }
 
 #[test]
