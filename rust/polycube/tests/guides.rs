@@ -321,22 +321,26 @@ fn a_slider_gives_what_a_run_with_that_simplicity_gives() {
 fn the_distortion_stays_within_its_limit() {
     let mesh = example(Example::Ring, 3, CellKind::Triangles).expect("the example exists").0;
     let angle = |r: &Simplified| r.report.distortion.expect("the result is valid")[1].angle;
-    let run = |max_distortion| {
-        let asked = Options { max_distortion, scale: Some(20.0), ..options(Strategy::Best, Guides::default()) };
+    let run = |max_distortion, scale| {
+        let asked = Options { max_distortion, scale: Some(scale), ..options(Strategy::Best, Guides::default()) };
         simplify(&mesh, &asked).expect("valid")
     };
-    let coarsest = run(None);
+    let coarsest = run(None, 20.0);
     let input = Input { polycube: &mesh, shape: None, labels: None };
     let points = coarsest.pareto(&input, &Context::default()).expect("a front");
     assert_eq!(points.len(), coarsest.report.front.len());
     let least = points.iter().map(angle).fold(f64::INFINITY, f64::min);
     let limit = f64::midpoint(least, angle(&coarsest));
     assert!(least < limit && limit < angle(&coarsest), "there is something to choose");
-    let bounded = run(Some(limit));
+    let bounded = run(Some(limit), 20.0);
     let first = points.iter().find(|p| angle(p) <= limit).expect("the least is within");
     assert_eq!((&bounded.levels, bounded.report.chosen), (&first.levels, first.report.chosen));
-    let hopeless = run(Some(1.0));
-    assert!((angle(&hopeless) - least).abs() < 1e-12);
+    // The lattice holds the input, which is no distortion at all; a coarser one does not.
+    assert!((angle(&run(Some(1.0), 20.0)) - least).abs() < 1e-12 && (least - 1.0).abs() < 1e-12);
+    let hopeless = run(Some(1.0), 0.37);
+    let points = hopeless.pareto(&input, &Context::default()).expect("a front");
+    let least = points.iter().map(angle).fold(f64::INFINITY, f64::min);
+    assert!(least > 1.0 && (angle(&hopeless) - least).abs() < 1e-12);
     assert!(hopeless.report.notes.iter().any(|n| n.contains("distortion")), "{:?}", hopeless.report.notes);
 }
 
