@@ -84,7 +84,7 @@ impl PyViolation {
 /// >>> import polycube
 /// >>> tetrahedron = polycube.Mesh([[0, 0, 0], [1, 0, 0], [0, 1, 0], [0, 0, 1]], [[0, 1, 2, 3]], "tetrahedra")
 /// >>> polycube.check(tetrahedron)
-/// [Violation(skew_face: face 1: the face is 54.7 degrees off the nearest axis)]
+/// [Violation(skew_face: face 1: the face is 54.7 degrees off the nearest axis, more than 30)]
 #[pyfunction]
 #[pyo3(
     signature = (polycube, labels=None, *, shape=None, **tolerance),

@@ -64,8 +64,12 @@ def test_a_shape_is_checked_too(pair, cube):
     shape, mesh = pair
     mirrored = polycube.Mesh(shape.points * [-1, 1, 1], shape.cells, "tetrahedra")
     violations = polycube.check(mesh, shape=mirrored)
-    assert {(v.kind, v.mesh) for v in violations} == {("inverted_cell", "shape")}
-    assert len(violations) == len(shape.cells)
+    assert [(v.kind, v.mesh) for v in violations] == [("mirrored", "shape")]
+    turned = shape.cells.copy()
+    turned[:2] = turned[:2, [1, 0, 2, 3]]
+    flat = polycube.Mesh(shape.points, turned, "tetrahedra")
+    violations = polycube.check(polycube.Mesh(mesh.points, turned, "tetrahedra"), shape=flat)
+    assert {(v.kind, v.mesh) for v in violations} >= {("inverted_cell", "shape"), ("inverted_cell", "polycube")}
     assert "mismatch" in {v.kind for v in polycube.check(mesh, shape=cube)}
 
 
