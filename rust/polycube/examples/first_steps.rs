@@ -5,7 +5,7 @@ use polycube::simplify::simplify;
 use polycube::{Context, Input, Options};
 
 fn main() -> polycube::Result<()> {
-    let [polycube, shape] = ["polycube", "shape"].map(|kind| format!("out/examples/ring.{kind}.obj"));
+    let [polycube, shape] = ["polycube", "shape"].map(|kind| format!("demo/examples/ring.{kind}.obj"));
     let (cube, shape) = read_pair(polycube.as_ref(), shape.as_ref())?;
     let input = Input { polycube: &cube, shape: Some(&shape), labels: None };
     let simple = simplify(&input, &Options::default(), &Context::default())?;
