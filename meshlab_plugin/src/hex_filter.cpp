@@ -49,10 +49,7 @@ void HexFilter::add_parameters(const MeshDocument& document, RichParameterList& 
     parameters.addParam(RichInt("padding", 1, "Padding",
                                 "How many layers of hexahedra lie between the blocks and the surface, 0 to 16. Without "
                                 "any, hexahedra on polycube edges are flat where the shape is smooth."));
-    parameters.addParam(RichBool("by_quality", true, "Simplicity by quality",
-                                 "Take the fewest blocks whose hexahedra are good, as quick coarse meshes show, "
-                                 "whatever the simplicity. A displacement limit decides instead where it is set."));
-    add_choice(parameters, " Without <i>Simplicity by quality</i> only.");
+    add_choice_by_quality(parameters, "blocks whose hexahedra are good, as quick coarse meshes show");
     add_lock(document, parameters);
     add_tolerance(parameters);
 }
@@ -78,8 +75,7 @@ polycube::filter::Settings settings_of(const RichParameterList& parameters) {
     polycube::filter::Settings settings;
     settings.options.size = polycube::Size{polycube::Size::Kind::hexes, double(hexes)};
     settings.options.padding = std::uint32_t(padding);
-    set_choice(parameters, settings.options.simplify);
-    if (parameters.getBool("by_quality")) settings.options.simplify.simplicity.reset();
+    set_choice_by_quality(parameters, settings.options.simplify);
     settings.options.simplify.tolerance = chosen_tolerance(parameters);
     return settings;
 }

@@ -35,3 +35,16 @@ void set_choice(const RichParameterList& parameters, polycube::Options& options)
         throw std::invalid_argument("The simplicity must be 0 to 1.");
     if (const double most = parameters.getFloat("max_displacement"); most != 0.0) options.max_displacement = most;
 }
+
+void add_choice_by_quality(RichParameterList& parameters, const QString& what) {
+    parameters.addParam(
+        RichBool("by_quality", true, "Simplicity by quality",
+                 "Take the fewest " + what +
+                     ", whatever the simplicity. A displacement limit decides instead where it is set."));
+    add_choice(parameters, " Without <i>Simplicity by quality</i> only.");
+}
+
+void set_choice_by_quality(const RichParameterList& parameters, polycube::Options& options) {
+    set_choice(parameters, options);
+    if (parameters.getBool("by_quality")) options.simplicity.reset();
+}

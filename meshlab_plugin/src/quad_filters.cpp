@@ -7,6 +7,9 @@
 
 namespace {
 
+/// What both filters take by quality.
+const char* const UNFOLDED = "patches that do not fold the surface";
+
 /// The parameter that chooses what MeshLab shows as the scalar of the faces.
 void add_scalar_choice(RichParameterList& parameters) {
     parameters.addParam(RichEnum("face_scalar", 0, {"Patch id", "Scaled Jacobian"}, "Scalar of the faces",
@@ -33,7 +36,7 @@ void add_quad_layer(const Call& call, const PairLayers& layers, const polycube::
 polycube::filter::Settings settings_of(const RichParameterList& parameters) {
     polycube::filter::Settings settings;
     settings.options.surface_only = true;
-    set_choice(parameters, settings.options.simplify);
+    set_choice_by_quality(parameters, settings.options.simplify);
     settings.options.simplify.tolerance = chosen_tolerance(parameters);
     return settings;
 }
@@ -61,7 +64,7 @@ class LayoutFilter final : public Filter {
     int changes() const override { return MeshModel::MM_GEOMETRY_AND_TOPOLOGY_CHANGE; }
     void add_parameters(const MeshDocument& document, RichParameterList& parameters) const override {
         add_pair(document, parameters);
-        add_choice(parameters);
+        add_choice_by_quality(parameters, UNFOLDED);
         add_lock(document, parameters);
         add_scalar_choice(parameters);
         add_tolerance(parameters);
@@ -109,7 +112,7 @@ void QuadFilter::add_parameters(const MeshDocument& document, RichParameterList&
     parameters.addParam(host::Percentage("edge_length", length, 0, diagonal, "Edge length",
                                          "The mean length of the quadrilaterals' edges; by default that of the "
                                          "current layer."));
-    add_choice(parameters);
+    add_choice_by_quality(parameters, UNFOLDED);
     add_lock(document, parameters);
     add_scalar_choice(parameters);
     add_tolerance(parameters);

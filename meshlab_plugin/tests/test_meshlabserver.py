@@ -72,13 +72,20 @@ def scalar_choice(value=0):
 
 def layout(polycube=0, shape=1):
     lock = boolean("lock_selected_faces", False)
-    return "Polycube: Coarse Quad Layout", [*layers(polycube, shape), *result(), lock, scalar_choice(), *tolerance()]
+    return "Polycube: Coarse Quad Layout", [
+        *layers(polycube, shape),
+        boolean("by_quality", True),
+        *result(),
+        lock,
+        scalar_choice(),
+        *tolerance(),
+    ]
 
 
-def quads(polycube=0, shape=1, edge=2, **which):
+def quads(polycube=0, shape=1, edge=2, by_quality=True, **which):
     lock = boolean("lock_selected_faces", False)
     size = [*layers(polycube, shape), length("edge_length", edge)]
-    return "Polycube: Quad Remesh", [*size, *result(**which), lock, scalar_choice(), *tolerance()]
+    return "Polycube: Quad Remesh", [*size, boolean("by_quality", by_quality), *result(**which), lock, scalar_choice(), *tolerance()]
 
 
 def hexes(file, polycube=0, shape=1, count=3000, by_quality=True, **which):

@@ -173,8 +173,16 @@ def test_what_is_meshed_can_be_chosen(pair, command, tmp_path):
 
 def test_quads_and_layout_take_a_simplicity(pair):
     for name in ("generate_polycube_quad_remesh", "generate_polycube_coarse_quad_layout"):
-        few, near = (document(*pair).apply_filter(name, simplicity=s) for s in (1.0, 0.0))
+        few, near = (document(*pair).apply_filter(name, simplicity=s, by_quality=False) for s in (1.0, 0.0))
         assert few["surface_patches_after"] < near["surface_patches_after"]
+
+
+def test_surfaces_are_not_folded_by_default(quad_pair):
+    """The fewest patches of the ring fold it: quadrilaterals lie far from the shape."""
+    ring = [Mesh(m.points, [half for a, b, c, d in m.faces for half in ([a, b, c], [a, c, d])]) for m in quad_pair]
+    found, fewest = (document(*ring).apply_filter("generate_polycube_quad_remesh", by_quality=q) for q in (True, False))
+    assert fewest["surface_patches_after"] < found["surface_patches_after"]
+    assert 4 * found["hausdorff"] < fewest["hausdorff"]
 
 
 @pytest.mark.parametrize("name", ["compute_polycube_check", "generate_polycube_simplified", "set_polycube_color_by_label_per_face"])
