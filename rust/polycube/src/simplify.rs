@@ -57,7 +57,7 @@ pub struct Options {
     pub simplicity: Option<f64>,
     /// The farthest that the strategy `best` may move a corner, in units of the polycube.
     pub max_displacement: Option<f64>,
-    /// The largest mean angle distortion ([`Distortion::angle`], at least 1) that the map from the shape to the result of the
+    /// The largest mean angle distortion ([`Distortion::angle`](crate::map::Distortion::angle), at least 1) that the map from the shape to the result of the
     /// strategy `best` may have; of the front, the point with the fewest blocks that keeps it is taken.
     pub max_distortion: Option<f64>,
     /// Facets that must not move, that must or must not align, planes of symmetry.
