@@ -105,6 +105,22 @@ impl PySimplified {
         let polycube = result.polycube.take().map(PyMesh::from);
         Self(Arc::new(Parts { source, result, polycube, labels, structure: OnceLock::new() }))
     }
+
+    /// Another result from the same source, made while `listener` listens.
+    fn again(
+        &self,
+        py: Python<'_>,
+        listener: &Listener,
+        make: impl FnOnce(&Simplified, &Input, &Context) -> polycube::Result<Simplified> + Send + 'static,
+    ) -> PyResult<Self> {
+        let parts = Arc::clone(&self.0);
+        let task = move |context: &Context| {
+            let Parts { source, result, .. } = &*parts;
+            let made = make(result, &source.input(), context).map_err(|e| source.failure(e))?;
+            Ok(Self::new(made, source.clone()))
+        };
+        listener.run(py, task)
+    }
 }
 
 #[pymethods]
@@ -193,13 +209,8 @@ impl PySimplified {
         progress: Option<Bound<'py, PyAny>>,
         cancel: Option<Bound<'py, PyAny>>,
     ) -> PyResult<Self> {
-        let parts = Arc::clone(&self.0);
-        let task = move |context: &Context| {
-            let Parts { source, result, .. } = &*parts;
-            let moved = result.at(&source.input(), simplicity, context).map_err(|e| source.failure(e))?;
-            Ok(Self::new(moved, source.clone()))
-        };
-        Listener { progress, cancel }.run(py, task)
+        let at = move |result: &Simplified, input: &Input, context: &Context| result.at(input, simplicity, context);
+        self.again(py, &Listener { progress, cancel }, at)
     }
 
     /// The same result at another scale, in lattice steps per unit of the input: the same blocks on a finer or coarser lattice.
@@ -218,13 +229,9 @@ impl PySimplified {
         progress: Option<Bound<'py, PyAny>>,
         cancel: Option<Bound<'py, PyAny>>,
     ) -> PyResult<Self> {
-        let parts = Arc::clone(&self.0);
-        let task = move |context: &Context| {
-            let Parts { source, result, .. } = &*parts;
-            let scaled = result.rescaled(&source.input(), scale, context).map_err(|e| source.failure(e))?;
-            Ok(Self::new(scaled, source.clone()))
-        };
-        Listener { progress, cancel }.run(py, task)
+        let rescaled =
+            move |result: &Simplified, input: &Input, context: &Context| result.rescaled(input, scale, context);
+        self.again(py, &Listener { progress, cancel }, rescaled)
     }
 
     fn __repr__(&self) -> String {

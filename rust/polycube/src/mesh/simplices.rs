@@ -4,7 +4,7 @@
 //! that share it cut it alike (Dompierre, Labbé, Vallet, Camarero: "How to subdivide pyramids,
 //! prisms and hexahedra into tetrahedra", 1999).
 
-use super::{Cells, Stars, hexahedron};
+use super::{Cells, Point, Stars, hexahedron};
 use crate::error::{Error, ErrorKind, Place, Result};
 use std::borrow::Cow;
 
@@ -36,6 +36,13 @@ impl Face {
             Self::Triangle(v) => v,
             Self::Quad(v) => v,
         }
+    }
+
+    /// The mean of its vertices.
+    pub(crate) fn middle(&self, points: &[Point]) -> Point {
+        let corners = self.vertices();
+        let sum: nalgebra::Vector3<f64> = corners.iter().map(|&v| points[v as usize].coords).sum();
+        Point::from(sum / corners.len() as f64)
     }
 
     /// Its one or two triangles, cut as in [`Cells::simplices`].

@@ -37,7 +37,8 @@ pub(super) fn regions(
 ) -> Result<Vec<Region>> {
     let mut growth = Growth::new(elements, constraints, bad);
     let enough = |r: &Region| elements.cells_in(room.elements * r.bad).min(most / 2);
-    for ring in 1.. {
+    let mut ring = 1;
+    loop {
         context.tick(0.0)?;
         let mut regions = growth.regions();
         let small = |r: &&Region| ring <= room.rings || r.cells.len() < enough(r);
@@ -46,8 +47,8 @@ pub(super) fn regions(
             keep_small(&mut regions, most);
             return Ok(regions);
         }
+        ring += 1;
     }
-    Ok(Vec::new())
 }
 
 /// Leaves the largest out until the rest has so many cells at most.

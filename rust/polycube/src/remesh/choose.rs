@@ -59,9 +59,9 @@ pub(super) struct Choice<'a> {
 }
 
 impl<'a> Choice<'a> {
-    /// Untangles the surface of the polycube `found`, makes coarse meshes of its inside if that is wanted, and, if one is folded or poor, does so of others from the same front with more blocks, until one is
-    /// good or none gets better. The choice is left to the options where they say which point of the front, how far corners may
-    /// move, or what must hold.
+    /// Untangles the surface of the polycube `found` and, if that is wanted, makes coarse meshes of its inside. If it stays folded or
+    /// they are poor, others from the same front with more blocks are tried, until one is good or none gets better. The choice is
+    /// left to the options where they say which point of the front, how far corners may move, or what must hold.
     ///
     /// # Errors
     /// Those of [`Start::new`] and [`Simplified::at`].

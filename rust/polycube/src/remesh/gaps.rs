@@ -23,13 +23,7 @@ pub(super) fn samples(surface: &Surface, shape: &[Point]) -> Vec<Point> {
     let mut used = vec![false; shape.len()];
     surface.faces().iter().flat_map(Face::vertices).for_each(|&v| used[v as usize] = true);
     let vertices = shape.iter().zip(used).filter(|(_, used)| *used).map(|(p, _)| *p);
-    vertices.chain(surface.faces().iter().map(|f| middle(f, shape))).collect()
-}
-
-fn middle(face: &Face, points: &[Point]) -> Point {
-    let corners = face.vertices();
-    let sum: nalgebra::Vector3<f64> = corners.iter().map(|&v| points[v as usize].coords).sum();
-    Point::from(sum / corners.len() as f64)
+    vertices.chain(surface.faces().iter().map(|f| f.middle(shape))).collect()
 }
 
 /// Where samples of a shape are farther than `bound` from the `faces` around a `mesh`, or those of its faces from the `shape`, the

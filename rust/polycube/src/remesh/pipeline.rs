@@ -151,8 +151,7 @@ impl Made {
     /// What is wrong with it. A worst hexahedron that lacks little to be good is not worth another mesh.
     fn wrong(&self) -> Option<Wrong> {
         match &self.meshed {
-            Meshed { inverted: 1.., .. } => Some(Wrong::Inverted),
-            Meshed { folded: 1.., hexes: None, .. } => Some(Wrong::Inverted),
+            meshed if meshed.bad() > 0 => Some(Wrong::Inverted),
             Meshed { far, .. } if *far > 0.0 => Some(Wrong::Far),
             Meshed { worst, .. } if *worst < GOOD - WORTH => Some(Wrong::Poor),
             _ => None,
@@ -194,11 +193,11 @@ fn best(
         let share = (1.0 - done) / 2.0;
         let context = context.stage("mesh", done, done + share);
         let mut meshed = if options.surface_only {
-            mesh_surface(&map, &shape, stages, &context)?
+            mesh_surface(&map, &shape, folded, stages, &context)?
         } else {
             mesh_volume(&map, &shape, rung, options, stages, &context)?
         };
-        (meshed.spaced, meshed.folded) = (spaced, folded);
+        meshed.spaced = spaced;
         done += share;
         let made = Made { simplified, meshed };
         let (at, wrong) = (made.simplified.report.chosen.unwrap_or(0), made.wrong());
@@ -241,19 +240,25 @@ pub(super) struct Meshed {
     pub(super) released: usize,
     /// Whether the levels were spaced by the shape.
     pub(super) spaced: bool,
-    /// How many triangles of the map of the surface are turned over if it is folded; 0 otherwise.
+    /// Of a surface alone: how many triangles of its map are turned over if it is folded; 0 otherwise.
     pub(super) folded: usize,
 }
 
 impl Meshed {
     /// How much of it is the wrong way round: of hexahedra, or of the map where there are none.
     fn bad(&self) -> usize {
-        if self.hexes.is_some() { self.inverted } else { self.folded }
+        self.inverted + self.folded
     }
 }
 
 /// The quadrilaterals and patches of a surface alone.
-fn mesh_surface(map: &Simplified, shape: &Mesh, stages: &mut Stages, context: &Context) -> Result<Meshed> {
+fn mesh_surface(
+    map: &Simplified,
+    shape: &Mesh,
+    folded: usize,
+    stages: &mut Stages,
+    context: &Context,
+) -> Result<Meshed> {
     let start = Instant::now();
     let remesher = Remesher::new(map, shape, &context.stage("mesh", 0.0, 0.5))?;
     let quads = remesher.quads(&context.stage("mesh", 0.5, 0.8))?;
@@ -274,7 +279,7 @@ fn mesh_surface(map: &Simplified, shape: &Mesh, stages: &mut Stages, context: &C
         far,
         released: 0,
         spaced: false,
-        folded: 0,
+        folded,
     })
 }
 

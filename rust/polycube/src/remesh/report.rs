@@ -128,7 +128,7 @@ pub(super) fn measure(
         spaced: meshed.spaced,
         quads: meshed.quads.mesh.cells.len(),
         inverted_quads: meshed.quads.inverted(),
-        folded: if some { 0 } else { meshed.folded },
+        folded: meshed.folded,
         hexes: found.cells,
         hex_blocks: meshed.hexes.as_ref().map_or(Ok(0), |h| count_blocks(h, &counting))?,
         padding: options.padding,
@@ -174,8 +174,7 @@ impl RemeshReport {
     }
 
     /// How many cells bring the distance within the bound, if it shrinks in proportion to the length of edges: details do, smooth shapes
-    /// are faster.
-    /// Nothing where the distance has other causes or so many cells would be out of reach.
+    /// are faster. Nothing where the distance has other causes or so many cells would be out of reach.
     fn near_enough(&self) -> Option<String> {
         let finer = self.hausdorff_percent / (100.0 * self.max_hausdorff);
         let (cells, count) = match self.hexes {

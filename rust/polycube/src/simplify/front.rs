@@ -50,6 +50,7 @@ impl Simplified {
     pub fn at(&self, input: &Input, simplicity: f64, context: &Context) -> Result<Self> {
         let start = Instant::now();
         let located = self.locate(simplicity, context)?;
+        self.check_input(input)?;
         let mut moved = self.moved(input, located, context)?;
         let total = start.elapsed().as_secs_f64();
         moved.report.seconds = Seconds { morph: total, total, ..Seconds::default() };
@@ -78,6 +79,9 @@ impl Simplified {
     /// Those of [`at`](Self::at), except that an empty front gives no points.
     pub fn pareto(&self, input: &Input, context: &Context) -> Result<Vec<Self>> {
         let count = self.report.front.len();
+        if count > 0 {
+            self.check_input(input)?;
+        }
         let point = |index: usize| {
             let own = context.stage("front", index as f64 / count as f64, (index + 1) as f64 / count as f64);
             self.moved(input, self.locate_index(index, &own)?, &own)
@@ -143,7 +147,6 @@ impl Simplified {
     }
 
     fn moved(&self, input: &Input, located: Located, context: &Context) -> Result<Self> {
-        self.check_input(input)?;
         let Self { input: polycube, report: old, options, .. } = self;
         let alignment = Alignment {
             levels: located.levels,

@@ -1,7 +1,7 @@
 //! Where the surface of a polycube touches or crosses itself, or looks inward, told by faces of its mesh.
 
 use super::{Arrangement, Conflict, Polycube, Violation};
-use crate::mesh::{Face, Point};
+use crate::mesh::Point;
 
 /// One conflict of each pair of facets that meet and, where there is none, a facet of each part that looks inward.
 pub(crate) struct Overlaps<'a> {
@@ -68,7 +68,7 @@ impl Faces {
     fn new(polycube: &Polycube, points: &[Point]) -> Self {
         let mut of_facet = vec![Vec::new(); polycube.structure.facets.len()];
         for ((i, face), &facet) in (0..).zip(polycube.surface.faces()).zip(&polycube.facet_of_face) {
-            of_facet[facet as usize].push((i, middle(face, points)));
+            of_facet[facet as usize].push((i, face.middle(points)));
         }
         Self { of_facet }
     }
@@ -83,12 +83,6 @@ impl Faces {
         let nearest = self.of_facet[facet as usize].iter().min_by(|a, b| distance(a).total_cmp(&distance(b)));
         nearest.map_or(0, |face| face.0)
     }
-}
-
-fn middle(face: &Face, points: &[Point]) -> Point {
-    let v = face.vertices();
-    let sum: nalgebra::Vector3<f64> = v.iter().map(|&v| points[v as usize].coords).sum();
-    Point::from(sum / v.len() as f64)
 }
 
 #[cfg(test)]
