@@ -7,7 +7,7 @@ use crate::optimise::Nearest;
 use rayon::prelude::*;
 
 /// Vertices or faces between two looks at the context: some milliseconds' work.
-pub(super) const AT_ONCE: usize = 1024;
+pub(crate) const AT_ONCE: usize = 1024;
 
 /// Sides of the grid of samples on a quadrilateral.
 const SAMPLES: usize = 4;
@@ -83,7 +83,7 @@ fn vertex_distances(mesh: &Mesh, faces: &[Face], index: &Nearest<3>, context: &C
 }
 
 /// Points of a face beside its vertices.
-pub(super) fn samples(mesh: &Mesh, face: &Face) -> Vec<Point> {
+pub(crate) fn samples(mesh: &Mesh, face: &Face) -> Vec<Point> {
     let at = |v: u32| mesh.points[v as usize];
     match *face {
         Face::Triangle(t) => {
@@ -102,7 +102,7 @@ pub(super) fn samples(mesh: &Mesh, face: &Face) -> Vec<Point> {
 }
 
 /// A face as triangles: a flat quadrilateral as two, a bent one as four around its centre.
-pub(super) fn triangles(mesh: &Mesh, face: &Face) -> Vec<[Point; 3]> {
+pub(crate) fn triangles(mesh: &Mesh, face: &Face) -> Vec<[Point; 3]> {
     let at = |v: u32| mesh.points[v as usize];
     match *face {
         Face::Triangle(t) => vec![t.map(at)],

@@ -1,11 +1,14 @@
 //! What a remeshing did and how good its meshes are.
 
-use super::pipeline::{Meshed, RemeshOptions};
-use super::{Hexes, base_complex, hausdorff};
 use crate::context::Context;
 use crate::error::Result;
-use crate::mesh::{Cells, Mesh};
-use crate::optimise::{BARS, cell_qualities, scaled_jacobian, statistics};
+use crate::mesh::Mesh;
+use crate::optimise::{BARS, cell_qualities, statistics};
+use crate::remesh::base_complex::base_complex;
+use crate::remesh::hausdorff::hausdorff;
+use crate::remesh::meshed::Meshed;
+use crate::remesh::mesher::Hexes;
+use crate::remesh::options::RemeshOptions;
 use crate::simplify::{self, Simplified};
 
 /// More cells than this are not advised.
@@ -92,21 +95,8 @@ pub struct Stages {
     pub total: f64,
 }
 
-/// The worst scaled Jacobian of a mesh; 1 without hexahedra.
-pub(super) fn worst(hexes: &Hexes) -> f64 {
-    cells_of(hexes).iter().map(|c| scaled_jacobian(&hexes.mesh.points, c)).fold(1.0, f64::min)
-}
-
-/// The hexahedra of a mesh.
-pub(super) fn cells_of(hexes: &Hexes) -> &[[u32; 8]] {
-    match &hexes.mesh.cells {
-        Cells::Hexahedra(cells) => cells,
-        _ => &[],
-    }
-}
-
 /// Judges the meshes.
-pub(super) fn measure(
+pub(crate) fn measure(
     simplified: &Simplified,
     meshed: &Meshed,
     shape: &Mesh,
@@ -160,7 +150,7 @@ pub(super) fn measure(
 
 impl RemeshReport {
     /// Sets the total, and copies the stages to those of the simplification.
-    pub(super) fn set_seconds(&mut self, total: f64) {
+    pub(crate) fn set_seconds(&mut self, total: f64) {
         self.seconds.total = total;
         let Stages { simplify, map, mesh, optimise, measure, total } = self.seconds;
         let old = self.simplify.seconds;
@@ -215,7 +205,7 @@ fn rounded(count: f64) -> f64 {
 }
 
 fn count_blocks(hexes: &Hexes, context: &Context) -> Result<usize> {
-    Ok(base_complex(cells_of(hexes), context)?.into_iter().max().map_or(0, |b| b as usize + 1))
+    Ok(base_complex(hexes.cells(), context)?.into_iter().max().map_or(0, |b| b as usize + 1))
 }
 
 fn inverted(hexes: &Hexes, scaled_jacobian: &[f64]) -> Vec<InvertedCell> {
@@ -229,7 +219,7 @@ fn inverted(hexes: &Hexes, scaled_jacobian: &[f64]) -> Vec<InvertedCell> {
 }
 
 /// The diagonal of the bounding box of the points that cells use.
-pub(super) fn diagonal(mesh: &Mesh) -> f64 {
+pub(crate) fn diagonal(mesh: &Mesh) -> f64 {
     let mut low = [f64::INFINITY; 3];
     let mut high = [f64::NEG_INFINITY; 3];
     for v in (0..mesh.cells.len()).flat_map(|i| mesh.cells.cell(i)) {

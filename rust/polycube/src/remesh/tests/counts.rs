@@ -39,7 +39,7 @@ fn check_polycube(case: &Case, hexes: &Hexes) {
     assert!(worst > 0.0 || !regular, "{}: {worst}", case.name);
 }
 
-pub(super) fn check(case: &Case) {
+pub(crate) fn check(case: &Case) {
     let context = Context::default();
     let remesher = case.remesher();
     let after = case.simplified.report.after.unwrap();
@@ -48,7 +48,7 @@ pub(super) fn check(case: &Case) {
         let hexes = remesher.hexes(padding, &context).unwrap();
         let expected = count_hexes(structure, &case.simplified.levels, padding);
         assert_eq!(hexes.mesh.cells.len() as u64, expected, "{}", case.name);
-        assert_eq!(hexes.sites.len(), hexes.mesh.points.len());
+        assert_eq!(hexes.carriers.len(), hexes.mesh.points.len());
         check_topology(case, &hexes.mesh);
         check_polycube(case, &hexes);
         check_blocks(case, &hexes, if padding > 0 { after.blocks_padded } else { after.blocks });

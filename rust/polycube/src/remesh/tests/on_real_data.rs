@@ -11,7 +11,7 @@ use crate::simplify::Options;
 use std::time::Instant;
 
 /// The names of the pairs, each with the endings of its files.
-pub(super) fn pairs() -> Vec<(String, &'static str)> {
+pub(crate) fn pairs() -> Vec<(String, &'static str)> {
     let Some(folder) = folder() else { return Vec::new() };
     let names: Vec<String> =
         std::fs::read_dir(folder).unwrap().map(|e| e.unwrap().file_name().into_string().unwrap()).collect();
@@ -22,7 +22,7 @@ pub(super) fn pairs() -> Vec<(String, &'static str)> {
 }
 
 /// The polycube and the shape of a pair.
-pub(super) fn pair(name: &str, extension: &str) -> (Mesh, Mesh) {
+pub(crate) fn pair(name: &str, extension: &str) -> (Mesh, Mesh) {
     let file = |part: &str| folder().unwrap().join(format!("{name}.{part}.{extension}"));
     read_pair(&file("polycube"), &file("shape")).unwrap()
 }
@@ -32,7 +32,7 @@ fn load(name: &str, extension: &str, options: &Options) -> Case {
 }
 
 /// The published number of hexahedra.
-pub(super) fn published(name: &str) -> usize {
+pub(crate) fn published(name: &str) -> usize {
     let text = std::fs::read_to_string(folder().unwrap().join("reference.json")).unwrap();
     let all: serde_json::Value = serde_json::from_str(&text).unwrap();
     let own = &all[name];

@@ -6,7 +6,7 @@ use crate::context::Context;
 use crate::generate::{Example, example};
 use crate::mesh::{CellKind, Face, Mesh, Point};
 use crate::optimise::Nearest;
-use crate::remesh::{Site, hausdorff};
+use crate::remesh::{Carrier, hausdorff};
 use crate::simplify::Options;
 
 fn size(mesh: &Mesh) -> f64 {
@@ -20,32 +20,32 @@ fn surface(mesh: &Mesh) -> Nearest<3> {
 }
 
 /// Quadrilaterals and the boundary of hexahedra have their vertices on the shape, corners on corners.
-pub(super) fn check(case: &Case) {
+pub(crate) fn check(case: &Case) {
     let context = Context::default();
     let remesher = case.remesher();
     let (index, size) = (surface(&case.shape), size(&case.shape));
     let quads = remesher.quads(&context).unwrap();
     let corners = &case.simplified.input.structure.corners;
-    for (p, site) in quads.mesh.points.iter().zip(&quads.sites) {
+    for (p, carrier) in quads.mesh.points.iter().zip(&quads.carriers) {
         assert!(index.distance(p) < 1e-12 * size, "{}: {:e}", case.name, index.distance(p));
-        match *site {
-            Site::Corner(c) => assert_eq!(*p, case.shape.points[corners[c as usize].vertex as usize]),
-            Site::Edge(e) => {
+        match *carrier {
+            Carrier::Corner(c) => assert_eq!(*p, case.shape.points[corners[c as usize].vertex as usize]),
+            Carrier::Edge(e) => {
                 let chain = &case.simplified.input.chains[e as usize];
                 let segments = chain.windows(2).map(|s| [s[0], s[1], s[1]].map(|v| case.shape.points[v as usize]));
                 assert!(Nearest::new(segments).distance(p) < 1e-12 * size, "{}", case.name);
             }
-            Site::Facet(_) => {}
-            Site::Inside => panic!("{}: an inner vertex on the surface", case.name),
+            Carrier::Facet(_) => {}
+            Carrier::Inside => panic!("{}: an inner vertex on the surface", case.name),
         }
     }
     for padding in 0..2 {
         let hexes = remesher.hexes(padding, &context).unwrap();
-        let on_surface = hexes.sites.iter().zip(&hexes.mesh.points).filter(|(s, _)| s.is_surface());
+        let on_surface = hexes.carriers.iter().zip(&hexes.mesh.points).filter(|(s, _)| s.is_surface());
         let outer: Vec<Point> = on_surface.map(|(_, p)| *p).collect();
         assert_eq!(outer, quads.mesh.points, "{}", case.name);
         let boundary = hexes.mesh.cells.boundary().unwrap();
-        let on_boundary = |v: &u32| hexes.sites[*v as usize].is_surface();
+        let on_boundary = |v: &u32| hexes.carriers[*v as usize].is_surface();
         assert!(boundary.iter().all(|f| f.vertices().iter().all(on_boundary)));
     }
 }

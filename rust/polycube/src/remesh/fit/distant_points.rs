@@ -1,0 +1,74 @@
+//! Where a shape is far from the mesh that stands for it.
+
+use crate::context::Context;
+use crate::error::Result;
+use crate::mesh::{Face, Mesh, Point};
+use crate::optimise::{Guide, Nearest};
+use crate::remesh::hausdorff::{self, AT_ONCE, triangles};
+use crate::structure::Surface;
+use rayon::prelude::*;
+
+/// A place where a mesh cuts off or fills up what it should follow.
+pub(crate) struct DistantPoint {
+    /// The point of the shape there.
+    pub(crate) at: Point,
+    /// How far it is from the mesh.
+    pub(crate) distance: f64,
+    /// The face of the mesh nearest to it.
+    pub(crate) face: Face,
+}
+
+/// The vertices of the shape's `surface` and the middles of its faces.
+pub(crate) fn samples(surface: &Surface, shape: &[Point]) -> Vec<Point> {
+    let mut used = vec![false; shape.len()];
+    surface.faces().iter().flat_map(Face::vertices).for_each(|&v| used[v as usize] = true);
+    let vertices = shape.iter().zip(used).filter(|(_, used)| *used).map(|(p, _)| *p);
+    vertices.chain(surface.faces().iter().map(|f| f.middle(shape))).collect()
+}
+
+/// Where samples of a shape are farther than `bound` from the `faces` around a `mesh`, or those of its faces from the `shape`, the
+/// farthest first: the samples that [`hausdorff`](hausdorff::hausdorff) takes. O(n log n).
+///
+/// # Errors
+/// [`ErrorKind::Cancelled`](crate::ErrorKind::Cancelled).
+pub(crate) fn distant_points(
+    (mesh, faces): (&Mesh, &[Face]),
+    (shape, samples): (&dyn Guide, &[Point]),
+    bound: f64,
+    context: &Context,
+) -> Result<Vec<DistantPoint>> {
+    context.tick(0.0)?;
+    let pieces: Vec<_> = faces.iter().flat_map(|f| triangles(mesh, f).into_iter().map(move |t| (*f, t))).collect();
+    context.tick(0.0)?;
+    let index = Nearest::new(pieces.iter().map(|(_, t)| *t));
+    context.tick(0.0)?;
+    let distant = |at: &Point| {
+        let foot = index.foot(at)?;
+        let distance = (foot.point - at).norm();
+        (distance > bound).then_some(DistantPoint { at: *at, distance, face: pieces[foot.index].0 })
+    };
+    let mut found: Vec<DistantPoint> = Vec::new();
+    for some in samples.chunks(AT_ONCE) {
+        context.tick(0.0)?;
+        found.par_extend(some.par_iter().filter_map(distant));
+    }
+    for some in faces.chunks(AT_ONCE) {
+        context.tick(0.0)?;
+        found.par_extend(some.par_iter().filter_map(|face| bulge(mesh, face, shape, bound)));
+    }
+    found.sort_by(|a, b| b.distance.total_cmp(&a.distance));
+    Ok(found)
+}
+
+/// The sample of a face that is farthest from the shape, if it is farther than `bound`. Vertices lie on the shape, so what is near one
+/// is near the shape.
+fn bulge(mesh: &Mesh, face: &Face, shape: &dyn Guide, bound: f64) -> Option<DistantPoint> {
+    let corners = face.vertices();
+    let away = |p: &Point| corners.iter().all(|&v| (mesh.points[v as usize] - p).norm() > bound);
+    let distant = |p: Point| {
+        let at = shape.contact(&p).point;
+        DistantPoint { at, distance: (p - at).norm(), face: *face }
+    };
+    let far = hausdorff::samples(mesh, face).into_iter().filter(away).map(distant).filter(|g| g.distance > bound);
+    far.max_by(|a, b| a.distance.total_cmp(&b.distance))
+}

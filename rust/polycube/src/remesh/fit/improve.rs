@@ -1,0 +1,133 @@
+//! Optimises hexahedra with their surface on that of the shape.
+
+use super::distant_points::samples;
+use super::fitting::{Fitting, POOR, SMOOTHING};
+use super::sliding::{Hold, Sliding};
+use crate::context::Context;
+use crate::error::Result;
+use crate::mesh::Point;
+use crate::optimise::{Elements, Settings, optimise};
+use crate::remesh::mesher::Hexes;
+use crate::simplify::Simplified;
+
+/// Most passes of the optimiser over a mesh: each asks for boxes of the sizes that the one before led to.
+const PASSES: usize = 4;
+/// A pass that raised worst and average quality by less in sum is the last.
+const LEAST_GAIN: f64 = 0.015;
+/// And so is one that left more than this part of the inverted hexahedra.
+const LEFT: f64 = 0.5;
+/// Most rounds of untangling after the vertices in the way were released.
+const LATE_ROUNDS: usize = 15;
+/// How often vertices of inverted hexahedra are released.
+const RELEASES: usize = 4;
+/// What a mesh is for.
+#[derive(Clone, Copy, PartialEq)]
+pub(crate) enum Aim {
+    /// It is the last; the shape shall be no farther from it than this.
+    Within(f64),
+    /// A finer one starts from it.
+    Coarse,
+    /// It is one of several that show what can be had, and is given up where many hexahedra stay inverted while edges are held.
+    Trial,
+}
+
+/// What became of a mesh.
+#[derive(Clone, Copy)]
+pub(crate) struct Improved {
+    /// Vertices that left corners and edges.
+    pub(crate) released: usize,
+    /// How far the shape is from the mesh; 0 if it is as near as it shall be.
+    pub(crate) far: f64,
+}
+
+/// Moves the vertices of a mesh until no hexahedron is inverted and the worst is as good as can be had.
+///
+/// Inverted ones are first untangled with the surface held, then with the edges held, so that surface vertices do not
+/// slide past each other, from where there is no way back. Vertices of inverted hexahedra may leave corners and edges for
+/// the surface around, and so may those of poor ones where the shape has no crease. Where the shape is farther
+/// from the mesh than it shall be, vertices are put on what is cut off, as far as the hexahedra stay good.
+pub(crate) fn improve(
+    map: &Simplified,
+    hexes: &mut Hexes,
+    shape: &[Point],
+    settings: &Settings,
+    aim: Aim,
+    context: &Context,
+) -> Result<Improved> {
+    let sliding = Sliding::new(&map.input, shape, &context.stage("untangle", 0.0, 0.0))?;
+    let elements = Elements::boxes_like(hexes.cells(), &hexes.mesh.points, SMOOTHING)?;
+    context.stage("untangle", 0.0, 0.0).tick(0.0)?;
+    let freedom = sliding.freedoms(&hexes.carriers, Hold::Corners);
+    let mut fitting = Fitting { elements, guides: sliding.guides(), sliding: &sliding, hexes, freedom, released: 0 };
+    fitting.untangle(settings, aim != Aim::Trial, &context.stage("untangle", 0.0, 0.4))?;
+    if aim == Aim::Trial && fitting.is_hopeless() {
+        return Ok(Improved { released: fitting.released, far: 0.0 });
+    }
+    fitting.passes(settings, &context.stage("optimise", 0.4, 0.8))?;
+    let mut far = 0.0;
+    if let Aim::Within(bound) = aim {
+        let settings = Settings { untangle_rounds: settings.untangle_rounds.min(LATE_ROUNDS), ..settings.clone() };
+        far = fitting.limit_chord_error(
+            &samples(&map.input.surface, shape),
+            bound,
+            &settings,
+            &context.stage("optimise", 0.8, 1.0),
+        )?;
+    }
+    Ok(Improved { released: fitting.released, far })
+}
+
+impl Fitting<'_> {
+    /// Untangling alone, with more and more vertices that may move, until no hexahedron is inverted; without patience only as long as
+    /// there is hope.
+    fn untangle(&mut self, settings: &Settings, patient: bool, context: &Context) -> Result<()> {
+        let first = Settings {
+            untangle_rounds: 8,
+            untangle_iterations: 50,
+            improve_rounds: 0,
+            polish_rounds: 0,
+            ..settings.clone()
+        };
+        self.project();
+        for (hold, part) in [(Hold::Surface, 0.0), (Hold::Edges, 0.3)] {
+            let freedom = self.sliding.freedoms(&self.hexes.carriers, hold);
+            if self.run(&freedom, &first, &context.stage("untangle", part, part + 0.3))? == 0 {
+                return Ok(());
+            }
+        }
+        if !patient && self.is_hopeless() {
+            return Ok(());
+        }
+        let short = Settings { untangle_rounds: 12, ..first };
+        for round in 0..RELEASES {
+            let part = 0.6 + 0.4 * round as f64 / RELEASES as f64;
+            if self.run(&self.freedom.clone(), &short, &context.stage("untangle", part, part + 0.1))? == 0 {
+                break;
+            }
+            self.release(0.0, |_, _, _| true);
+        }
+        Ok(())
+    }
+
+    /// Passes of the optimiser, until one gains little.
+    fn passes(&mut self, settings: &Settings, context: &Context) -> Result<()> {
+        let settings = Settings { untangle_rounds: settings.untangle_rounds.min(LATE_ROUNDS), ..settings.clone() };
+        for pass in 0..PASSES {
+            let [from, to] = [pass, pass + 1].map(|p| p as f64 / PASSES as f64);
+            context.tick(from)?;
+            self.resize()?;
+            context.tick(from)?;
+            let before = self.released;
+            self.release(POOR, Sliding::is_smooth);
+            let points = &mut self.hexes.mesh.points;
+            let context = context.stage("optimise", from, to);
+            let done = optimise(points, &self.elements, &self.freedom, &self.guides, &settings, &context)?;
+            let gain = done.worst_after - done.worst_before + done.average_after - done.average_before;
+            let stuck = done.inverted_after as f64 > LEFT * done.inverted_before as f64;
+            if stuck || gain < LEAST_GAIN && self.released == before {
+                break;
+            }
+        }
+        Ok(())
+    }
+}

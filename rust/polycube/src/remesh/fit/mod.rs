@@ -1,0 +1,9 @@
+//! Hexahedra made to fit the shape: optimised with their surface on that of the shape, and near to it everywhere.
+
+mod chord_error;
+mod distant_points;
+mod fitting;
+mod improve;
+mod sliding;
+
+pub(crate) use improve::{Aim, Improved, improve};

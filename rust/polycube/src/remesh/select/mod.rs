@@ -1,0 +1,13 @@
+//! Which simplified polycube is meshed, found with coarse meshes that cost little.
+
+mod bisection;
+mod candidate;
+mod candidates;
+mod coarse_mesh;
+mod multilevel;
+mod spacing;
+
+pub(crate) use candidate::Candidate;
+pub(crate) use candidates::{Candidates, GOOD, Verdict, WORTH, Wrong};
+pub(crate) use coarse_mesh::CoarseMesh;
+pub(crate) use multilevel::finish;
