@@ -2,21 +2,22 @@
 
 use crate::error::{Error, ErrorKind, Result};
 use std::fmt;
-use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, AtomicU64, Ordering};
+use std::sync::{Arc, Mutex, PoisonError};
 
-/// Receives the name of the stage and the overall progress in `0..=1`, which never decreases.
-type Observer = dyn Fn(&str, f64) + Send + Sync;
+/// Receives the name of the stage and the overall progress in `0..=1`.
+type Observer = dyn FnMut(&str, f64) + Send;
 
 struct Shared {
     cancelled: AtomicBool,
     reported: AtomicU64,
-    observer: Box<Observer>,
+    /// Locked while it is called: threads that report at once would else be heard in any order.
+    observer: Mutex<Box<Observer>>,
 }
 
 /// Carries progress out of and cancellation into a call. Clones share both.
 ///
-/// Cancellation is sticky: once [`cancel`](Self::cancel) was called every later
+/// Cancellation is sticky: once [`cancel`](Self::cancel) was called every later [`check`](Self::check) and
 /// [`tick`](Self::tick) fails with [`ErrorKind::Cancelled`].
 ///
 /// ```
@@ -62,12 +63,15 @@ impl fmt::Debug for Context {
 
 impl Context {
     /// A context that reports every step to `observer(stage, progress)`.
-    pub fn new(observer: impl Fn(&str, f64) + Send + Sync + 'static) -> Self {
+    ///
+    /// The observer is called on the thread that works, by one thread at a time, and the progress it hears never
+    /// decreases. It may cancel; reporting from within it would wait for itself.
+    pub fn new(observer: impl FnMut(&str, f64) + Send + 'static) -> Self {
         Self {
             shared: Arc::new(Shared {
                 cancelled: AtomicBool::new(false),
                 reported: AtomicU64::new(0.0_f64.to_bits()),
-                observer: Box::new(observer),
+                observer: Mutex::new(Box::new(observer)),
             }),
             stage: "".into(),
             from: 0.0,
@@ -102,18 +106,26 @@ impl Context {
         }
     }
 
+    /// Stops a cancelled call, and reports nothing.
+    ///
+    /// # Errors
+    /// [`ErrorKind::Cancelled`] once the context was cancelled.
+    pub fn check(&self) -> Result<()> {
+        if self.is_cancelled() { Err(Error::new(ErrorKind::Cancelled, "cancelled")) } else { Ok(()) }
+    }
+
     /// Reports that `fraction` (clamped to `0..=1`) of this stage is done, and stops a cancelled call.
     ///
     /// # Errors
     /// [`ErrorKind::Cancelled`] once the context was cancelled.
     pub fn tick(&self, fraction: f64) -> Result<()> {
-        if self.is_cancelled() {
-            return Err(Error::new(ErrorKind::Cancelled, "cancelled"));
-        }
+        self.check()?;
         let now = self.from + (self.to - self.from) * fraction.clamp(0.0, 1.0);
+        // An observer that panicked once is called again all the same.
+        let mut observer = self.shared.observer.lock().unwrap_or_else(PoisonError::into_inner);
         // Progress is never negative, so the order of the bits is the order of the numbers.
         let before = self.shared.reported.fetch_max(now.to_bits(), Ordering::Relaxed);
-        (self.shared.observer)(&self.stage, now.max(f64::from_bits(before)));
+        observer(&self.stage, now.max(f64::from_bits(before)));
         Ok(())
     }
 
@@ -143,6 +155,36 @@ mod tests {
         let seen = seen.lock().unwrap();
         let expected = [("second", 0.75), ("first", 0.75), ("end", 1.0)];
         assert_eq!(*seen, expected.map(|(s, p)| (s.to_owned(), p)));
+    }
+
+    #[test]
+    fn an_observer_called_from_many_threads_never_hears_less_than_before() {
+        let seen = Arc::new(Mutex::new(Vec::new()));
+        let log = Arc::clone(&seen);
+        let context = Context::new(move |_, p| {
+            // Between what is heard and what is written down another thread has its chance.
+            std::thread::yield_now();
+            log.lock().unwrap().push(p);
+        });
+        std::thread::scope(|scope| {
+            for thread in 0..4 {
+                let context = context.clone();
+                scope.spawn(move || {
+                    (0..500).try_for_each(|i| context.tick(f64::from(4 * i + thread) / 2000.0)).unwrap()
+                });
+            }
+        });
+        let seen = seen.lock().unwrap();
+        assert!(seen.len() == 2000 && seen.is_sorted());
+    }
+
+    #[test]
+    fn checking_reports_nothing() {
+        let context = Context::new(|stage, _| panic!("{stage}"));
+        assert_eq!(context.stage("work", 0.5, 1.0).check(), Ok(()));
+        assert_eq!(context.progress(), 0.0);
+        context.cancel();
+        assert_eq!(context.check().unwrap_err().kind, ErrorKind::Cancelled);
     }
 
     #[test]

@@ -35,7 +35,7 @@ impl Ilu {
         let mut place = vec![usize::MAX; a.len()];
         for i in 0..a.len() {
             if i % CHUNK == 0 {
-                context.tick(0.0)?;
+                context.check()?;
             }
             ilu.eliminate(i, &mut place);
         }

@@ -75,7 +75,7 @@ impl<'a> Assembly<'a> {
                 infinite.store(true, Relaxed);
             }
         });
-        context.tick(0.0)?;
+        context.check()?;
         if infinite.into_inner() {
             gradient.fill(Vector3::zeros());
             return Ok(f64::INFINITY);

@@ -151,9 +151,9 @@ pub fn optimise(
     let constraints = Constraints::new(freedom, guides)?;
     let mut elements = elements.clone();
     elements.match_size(points);
-    context.tick(0.0)?;
+    context.check()?;
     let mut problem = Problem::new(&elements, constraints, points.len());
-    context.tick(0.0)?;
+    context.check()?;
     let before = problem.assembly.census(points);
     let mut moved = points.clone();
     run(&mut problem, &mut moved, settings, context)?;
@@ -175,7 +175,7 @@ pub fn optimise(
 
 /// All phases from `points`.
 fn run(problem: &mut Problem, points: &mut Vec<Point>, settings: &Settings, context: &Context) -> Result<()> {
-    context.tick(0.0)?;
+    context.check()?;
     problem.constraints.project(points);
     let mut valid = problem.assembly.census(points).inverted == 0;
     if !valid {

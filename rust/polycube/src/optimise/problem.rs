@@ -60,7 +60,7 @@ impl<'a> Problem<'a> {
         let target = to.to_vec();
         self.constraints.project(to);
         for retreat in 0..RETREATS {
-            context.tick(0.0)?;
+            context.check()?;
             let bad = self.spoiled(to, bar);
             if bad.is_empty() {
                 return Ok(());

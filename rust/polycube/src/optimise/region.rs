@@ -39,7 +39,7 @@ pub(super) fn regions(
     let enough = |r: &Region| elements.cells_in(room.elements * r.bad).min(most / 2);
     let mut ring = 1;
     loop {
-        context.tick(0.0)?;
+        context.check()?;
         let mut regions = growth.regions();
         let small = |r: &&Region| ring <= room.rings || r.cells.len() < enough(r);
         let grown = regions.iter().filter(small).filter(|region| growth.grow(region)).count();

@@ -31,16 +31,16 @@ pub fn hausdorff(mesh: &Mesh, shape: &Mesh, context: &Context) -> Result<f64> {
 ///
 /// The distance grows no faster than one walks, so samples that cannot be farther than the farthest yet are skipped.
 fn farthest(from: &Mesh, to: &Mesh, context: &Context) -> Result<f64> {
-    context.tick(0.0)?;
+    context.check()?;
     let faces = from.cells.boundary()?;
-    context.tick(0.0)?;
+    context.check()?;
     let target = to.cells.boundary()?;
     if faces.is_empty() || target.is_empty() {
         return Err(Error::new(ErrorKind::Mesh, "a mesh without cells has no surface"));
     }
-    context.tick(0.0)?;
+    context.check()?;
     let index = Nearest::new(target.iter().flat_map(|f| triangles(to, f)));
-    context.tick(0.0)?;
+    context.check()?;
     let at_vertices = vertex_distances(from, &faces, &index, &context.stage("hausdorff", 0.0, 0.3))?;
     let context = context.stage("hausdorff", 0.3, 1.0);
     let mut worst = at_vertices.iter().copied().fold(0.0_f64, f64::max);

@@ -42,7 +42,7 @@ fn repaired(structure: &Structure, input: &[f64], guided: &Guided, context: &Con
     let mut now = Ranks::new(structure, input);
     let mut missing = guided.missing(&now);
     for _ in 0..STEPS_PER_LEVEL * structure.levels.len() {
-        context.tick(0.0)?;
+        context.check()?;
         let Some((next, _)) = moves.draw(&now, false, &mut random) else { continue };
         let its = guided.missing(&next);
         if its <= missing && judge.counts(&next).is_some() {

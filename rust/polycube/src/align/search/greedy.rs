@@ -19,11 +19,12 @@ pub fn saved_per_cost(from: &State, to: &State) -> f64 {
     saved(from, to) / cost.max(f64::MIN_POSITIVE)
 }
 
-/// Aligns one level with another, the pair that is worth most first, until no pair saves anything or the work gets too much.
-/// All states on the way are offered to the front.
+/// Aligns one level with another, the pair that is worth most first, until no pair saves anything or the work gets too
+/// much. All states on the way are offered to the front.
 ///
 /// Savings are looked up again only for the pairs that promise most: those that were worth most when last counted.
-/// O(n²) counts for n levels, and a few for every merge; of so many levels that these are too many, only the nearest pairs.
+/// O(n²) counts for n levels, and a few for every merge; of so many levels that these are too many, only the nearest
+/// pairs.
 pub fn merge(
     landscape: &Landscape,
     chain: &mut Chain,
@@ -43,7 +44,7 @@ pub fn merge(
             if best.as_ref().is_some_and(|b| b.0 >= *promise) || counts == 0 || landscape.is_late() {
                 break;
             }
-            context.tick(0.0)?;
+            context.check()?;
             let next = landscape.moves.align(&now.ranks, *level, *onto).and_then(|ranks| {
                 counts -= 1;
                 chain.state(ranks)

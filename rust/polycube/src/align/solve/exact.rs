@@ -1,17 +1,17 @@
 //! Steepest descent by minimum cuts: exact, in integers, with a proof of optimality at the end.
 //!
 //! The cost with its difference constraints is L♮-convex: it is the sum of convex functions of single variables and of
-//! differences of two. Such a function is minimal at `x` as soon as no set of variables improves it by moving up by 1 as
-//! one, and none by moving down (Murota, *Discrete Convex Analysis*, 2003, theorem 7.14). The best set to move by `±s`
-//! is a minimum cut, because with `g` the derivative of the cost at `x`
+//! differences of two. Such a function is minimal at `x` as soon as no set of variables improves it by moving up by 1
+//! as one, and none by moving down (Murota, *Discrete Convex Analysis*, 2003, theorem 7.14). The best set to move by
+//! `±s` is a minimum cut, because with `g` the derivative of the cost at `x`
 //!
 //! ```text
 //! cost(x ± s·S) − cost(x) = s · [ Σ_{i∈S} (weight_i λ s ± g_i)  +  Σ_{pairs cut by S} weight s ]
 //! ```
 //!
 //! and a difference with slack below `s` forbids that only one of its two variables moves. Steps are powers of two,
-//! long ones first (Murota 2003, section 10.3), so the number of cuts grows with the logarithm of the distance, and each
-//! cut continues the flow of the one before (Kolmogorov & Shioura, *Discrete Optimization* 6, 2009).
+//! long ones first (Murota 2003, section 10.3), so the number of cuts grows with the logarithm of the distance, and
+//! each cut continues the flow of the one before (Kolmogorov & Shioura, *Discrete Optimization* 6, 2009).
 //!
 //! The last phase moves down by 1 for as long as that does not cost anything, taking the largest set each time.
 //! It ends at the lowest of all optimal solutions.
@@ -170,7 +170,7 @@ impl<'a> Descent<'a> {
         if self.supply.iter().all(|&s| s < 0 || (s == 0 && !free)) {
             return Ok(false);
         }
-        self.context.tick(0.0)?;
+        self.context.check()?;
         self.steps += 1;
         self.network.reset(&self.supply);
         self.join(way, stride);

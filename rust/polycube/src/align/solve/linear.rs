@@ -33,8 +33,8 @@ const TOLERANCE: f64 = 1e-6;
 ///
 /// The backend is `microlp`, or HiGHS with the cargo feature `highs`. Both calculate in floating point, so without
 /// linear constraints the result is then brought to the lowest optimal solution by exact steps; had that gained more
-/// than a millionth of the cost, it would be reported as an internal error. With linear constraints there may be several
-/// optimal solutions and the backend decides. Cancellation is noticed between programs.
+/// than a millionth of the cost, it would be reported as an internal error. With linear constraints there may be
+/// several optimal solutions and the backend decides. Cancellation is noticed between programs.
 #[derive(Clone, Copy, Debug)]
 pub struct LinearSolver {
     /// The time one mixed-integer program may take; beyond it solving fails with [`ErrorKind::Unsupported`].
@@ -54,7 +54,7 @@ impl Solver for LinearSolver {
         let mut model = Model::new(problem, &start);
         let mut steps = 0;
         let mut moves = loop {
-            context.tick(0.0)?;
+            context.check()?;
             steps += 1;
             let moves = model.optimum(self.time_limit)?;
             if !model.refine(&moves) {

@@ -68,7 +68,7 @@ impl Fitting<'_> {
         if worst <= 0.0 {
             return Ok(f64::INFINITY);
         }
-        context.tick(0.0)?;
+        context.check()?;
         let around = self.around();
         let faces = self.hexes.mesh.cells.boundary()?;
         let start = self.hexes.mesh.points.clone();
@@ -84,7 +84,7 @@ impl Fitting<'_> {
             let [from, to] = [round, round + 1].map(|r| r as f64 / ROUNDS as f64);
             let before = (self.hexes.mesh.points.clone(), held.clone());
             self.pull_all(&found, ON * bound, pull, &around, &mut held);
-            context.tick(0.0)?;
+            context.check()?;
             self.resize()?;
             self.run(&held, settings, &context.stage("fit", from, to))?;
             let left = self.distant_points(&faces, samples, bound, context)?;

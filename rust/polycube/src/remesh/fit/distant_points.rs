@@ -37,11 +37,11 @@ pub(crate) fn distant_points(
     bound: f64,
     context: &Context,
 ) -> Result<Vec<DistantPoint>> {
-    context.tick(0.0)?;
+    context.check()?;
     let pieces: Vec<_> = faces.iter().flat_map(|f| triangles(mesh, f).into_iter().map(move |t| (*f, t))).collect();
-    context.tick(0.0)?;
+    context.check()?;
     let index = Nearest::new(pieces.iter().map(|(_, t)| *t));
-    context.tick(0.0)?;
+    context.check()?;
     let distant = |at: &Point| {
         let foot = index.foot(at)?;
         let distance = (foot.point - at).norm();
@@ -49,11 +49,11 @@ pub(crate) fn distant_points(
     };
     let mut found: Vec<DistantPoint> = Vec::new();
     for some in samples.chunks(AT_ONCE) {
-        context.tick(0.0)?;
+        context.check()?;
         found.par_extend(some.par_iter().filter_map(distant));
     }
     for some in faces.chunks(AT_ONCE) {
-        context.tick(0.0)?;
+        context.check()?;
         found.par_extend(some.par_iter().filter_map(|face| bulge(mesh, face, shape, bound)));
     }
     found.sort_by(|a, b| b.distance.total_cmp(&a.distance));

@@ -40,11 +40,11 @@ impl Sliding {
         let all: Vec<[u32; 3]> = triangles.concat();
         let whole = SurfaceGuide::new(shape, &all)?;
         let facet = |own: &Vec<[u32; 3]>| {
-            context.tick(0.0)?;
+            context.check()?;
             SurfaceGuide::new(shape, own)
         };
         let edge = |chain: &Vec<u32>| {
-            context.tick(0.0)?;
+            context.check()?;
             CurveGuide::new(shape, &segments(chain))
         };
         Ok(Self {

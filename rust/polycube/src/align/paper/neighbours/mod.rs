@@ -39,7 +39,7 @@ use sites::Sites;
 /// # Ok::<(), polycube::Error>(())
 /// ```
 pub fn neighbours(points: &[[i64; 3]], context: &Context) -> Result<Vec<[u32; 2]>> {
-    context.tick(0.0)?;
+    context.check()?;
     if points.is_empty() {
         return Ok(Vec::new());
     }
@@ -58,7 +58,8 @@ fn edges(cells: &[[u32; 4]], count: usize) -> Vec<[u32; 2]> {
     ascending(all.filter(|&[_, b]| (b as usize) < count), count)
 }
 
-/// The pairs of numbers below `count`, ascending, each once: sorting many short lists is faster than sorting all the pairs.
+/// The pairs of numbers below `count`, ascending, each once: sorting many short lists is faster than sorting all the
+/// pairs.
 fn ascending(pairs: impl Iterator<Item = [u32; 2]> + Clone, count: usize) -> Vec<[u32; 2]> {
     let (seconds, ends) = grouped(pairs, count);
     let mut ascending: Vec<[u32; 2]> = Vec::with_capacity(8 * count);
