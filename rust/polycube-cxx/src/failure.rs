@@ -1,9 +1,7 @@
 //! Errors on their way to C++, and panics made errors.
 
-use polycube::{Error, ErrorKind, Place};
-use std::any::Any;
+use polycube::{Error, Place};
 use std::fmt;
-use std::panic::{AssertUnwindSafe, catch_unwind};
 
 /// Separates the parts of an error in the text that cxx carries across.
 const SEPARATOR: char = '\x1f';
@@ -49,15 +47,7 @@ pub fn numbers(place: Place) -> (u8, u64, u64) {
     }
 }
 
-/// Does `work`; a panic becomes an error of [`ErrorKind::Internal`].
+/// Does `work`; a panic becomes an error of [`polycube::ErrorKind::Internal`].
 pub fn guard<T>(work: impl FnOnce() -> polycube::Result<T>) -> Result<T> {
-    let done = catch_unwind(AssertUnwindSafe(work));
-    done.unwrap_or_else(|payload| Err(panicked(&*payload))).map_err(Failure)
-}
-
-fn panicked(payload: &(dyn Any + Send)) -> Error {
-    let text = payload.downcast_ref::<&str>().map(|s| (*s).to_owned());
-    let text = text.or_else(|| payload.downcast_ref::<String>().cloned()).unwrap_or_default();
-    Error::new(ErrorKind::Internal, format!("a fault of the library: {text}"))
-        .remedy("report it together with the mesh; your data is unchanged")
+    polycube_host::guard(work).map_err(Failure)
 }

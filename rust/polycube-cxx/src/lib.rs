@@ -1,8 +1,8 @@
 //! The bridge from the core to C++. Hosts use the library in `cpp`, which alone knows what is here.
 //!
-//! Data crosses as flat buffers, results as structs of them. Every function gives an error instead of unwinding (`failure`), long
-//! ones run on a thread of their own while the caller's thread listens for progress and cancellation (`run`). There is
-//! no state between calls.
+//! Data crosses as flat buffers, results as structs of them. Every function gives an error instead of unwinding
+//! (`failure`), long ones run on a thread of their own while the caller's thread listens for progress and cancellation
+//! (`run`). There is no state between calls.
 
 mod buffers;
 mod checking;

@@ -121,7 +121,8 @@ impl From<&Report> for ReportData {
     }
 }
 
-/// The pairs that Algorithm 1 makes of corners at these lattice points (x, y, z each): for tests against other triangulations.
+/// The pairs that Algorithm 1 makes of corners at these lattice points (x, y, z each): for tests against other
+/// triangulations.
 pub fn corner_pairs(points: &[i64]) -> Result<Vec<u32>> {
     guard(|| {
         let pairs = polycube::align::neighbours::neighbours(points.as_chunks::<3>().0, &Context::default())?;
@@ -129,7 +130,8 @@ pub fn corner_pairs(points: &[i64]) -> Result<Vec<u32>> {
     })
 }
 
-/// Simplifies, but panics in the middle of the core as soon as it reports the stage `stage`: for tests of what hosts get to see.
+/// Simplifies, but panics in the middle of the core as soon as it reports the stage `stage`: for tests of what hosts
+/// get to see.
 pub fn panic_in_core(input: &InputView, stage: &str, observer: &Observer) -> Result<()> {
     let owned = guard(|| Owned::new(input))?;
     let stage = stage.to_owned();

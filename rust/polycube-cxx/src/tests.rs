@@ -1,6 +1,6 @@
 //! What can be tested without C++: how errors are told. Everything else is tested from there (`cpp/tests`).
 
-use crate::failure::{Failure, guard};
+use crate::failure::Failure;
 use crate::ffi::MeshView;
 use crate::input::mesh;
 use polycube::{Error, ErrorKind, Place};
@@ -12,13 +12,6 @@ fn a_failure_has_six_parts() {
     assert_eq!(text.split('\x1f').collect::<Vec<_>>(), ["5", "2", "3", "8", "odd  one ", "mend it"]);
     let text = Failure(Error::new(ErrorKind::Parse, "cut short").in_file("a.obj")).to_string();
     assert_eq!(text.split('\x1f').collect::<Vec<_>>(), ["1", "0", "0", "0", "a.obj: cut short", ""]);
-}
-
-#[test]
-fn a_panic_is_an_error() {
-    let failed = guard::<()>(|| panic!("at {}", 7)).unwrap_err();
-    assert_eq!(failed.0.kind, ErrorKind::Internal);
-    assert!(failed.0.message.ends_with("at 7"), "{}", failed.0.message);
 }
 
 #[test]

@@ -1,4 +1,4 @@
-"""Any file that meshio reads to any file that meshio writes: simplify a polycube, mesh its shape, keep the numbers per cell.
+"""Any file that meshio reads to any that it writes: simplify a polycube, mesh its shape, keep the numbers per cell.
 
     python meshio_files.py [FOLDER [SHAPE POLYCUBE]]
 

@@ -68,8 +68,8 @@ impl PyViolation {
 
 /// Lists everything that keeps a mesh from being a valid polycube, with place and remedy; empty for a valid one.
 ///
-/// The rules are checked one after the other, each only where those before it hold, so that one fault is reported once and not
-/// by all that follows from it.
+/// The rules are checked one after the other, each only where those before it hold, so that one fault is reported once
+/// and not by all that follows from it.
 ///
 /// Args:
 ///     polycube: any mesh.

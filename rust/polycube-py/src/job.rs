@@ -4,13 +4,13 @@ use crate::errors;
 use crate::mesh::PyMesh;
 use crate::remeshed::{self, PyRemeshed};
 use crate::simplified::{self, PySimplified};
-use crate::work::Work;
+use crate::work::{self, Work};
 use pyo3::prelude::*;
 use pyo3::types::{PyDict, PyType};
 use std::time::Duration;
 
-/// Work in the background, for programs that must stay responsive: start it, look at `progress` and `done` from time to time,
-/// and take `result()`. A job that nobody holds any more is cancelled.
+/// Work in the background, for programs that must stay responsive: start it, look at `progress` and `done` from time to
+/// time, and take `result()`. A job that nobody holds any more is cancelled.
 ///
 /// >>> import polycube
 /// >>> shape, cube = polycube.example("ring", kind="quads")
@@ -43,7 +43,10 @@ impl PyJob {
     #[staticmethod]
     #[pyo3(
         signature = (polycube, shape=None, **options),
-        text_signature = "(polycube, shape=None, *, labels=None, strategy='best', scale=None, edge_length=None, objective=None, simplicity=1.0, max_displacement=None, max_distortion=None, locked_faces=None, guides=None, steps=400, proof_nodes=200, time_limit=None, lambda_min=0.0, solver='exact', angle_tolerance=30.0, level_tolerance=0.05)"
+        text_signature = "(polycube, shape=None, *, labels=None, strategy='best', scale=None, edge_length=None, \
+            objective=None, simplicity=1.0, max_displacement=None, max_distortion=None, locked_faces=None, \
+            guides=None, steps=400, proof_nodes=200, time_limit=None, lambda_min=0.0, solver='exact', \
+            angle_tolerance=30.0, level_tolerance=0.05)"
     )]
     fn simplify(
         py: Python<'_>,
@@ -51,15 +54,18 @@ impl PyJob {
         shape: Option<&PyMesh>,
         options: Option<&Bound<'_, PyDict>>,
     ) -> PyResult<Self> {
-        let work = Work::start(simplified::task(py, polycube, shape, options)?);
-        work.map(|work| Self(Kind::Simplify(work))).map_err(|e| errors::raise(py, &e, None))
+        Ok(Self(Kind::Simplify(work::start(py, simplified::task(py, polycube, shape, options)?)?)))
     }
 
     /// Starts `polycube.remesh` with these arguments, of which mistakes are raised at once.
     #[staticmethod]
     #[pyo3(
         signature = (shape, polycube, **options),
-        text_signature = "(shape, polycube, *, labels=None, hexes=None, edge_length=None, scale=None, padding=1, surface_only=False, max_hausdorff=0.5, strategy='best', objective=None, simplicity=None, max_displacement=None, max_distortion=None, locked_faces=None, guides=None, steps=400, proof_nodes=200, time_limit=None, lambda_min=0.0, solver='exact', angle_tolerance=30.0, level_tolerance=0.05)"
+        text_signature = "(shape, polycube, *, labels=None, hexes=None, edge_length=None, scale=None, padding=1, \
+            surface_only=False, max_hausdorff=0.5, strategy='best', objective=None, simplicity=None, \
+            max_displacement=None, max_distortion=None, locked_faces=None, guides=None, steps=400, \
+            proof_nodes=200, time_limit=None, lambda_min=0.0, solver='exact', angle_tolerance=30.0, \
+            level_tolerance=0.05)"
     )]
     fn remesh(
         py: Python<'_>,
@@ -67,8 +73,7 @@ impl PyJob {
         polycube: &PyMesh,
         options: Option<&Bound<'_, PyDict>>,
     ) -> PyResult<Self> {
-        let work = Work::start(remeshed::task(py, shape, polycube, options)?);
-        work.map(|work| Self(Kind::Remesh(work))).map_err(|e| errors::raise(py, &e, None))
+        Ok(Self(Kind::Remesh(work::start(py, remeshed::task(py, shape, polycube, options)?)?)))
     }
 
     /// The stage that the work is in, and how much of all is done, 0 to 1; it never goes back.
@@ -80,7 +85,7 @@ impl PyJob {
     /// Whether the work has ended, in whatever way.
     #[getter]
     fn done(&self) -> bool {
-        either!(self, work => work.is_done())
+        either!(self, work => work.wait(Duration::ZERO))
     }
 
     /// Asks the work to stop; `result()` then raises `Cancelled`, unless it was done already.
@@ -93,15 +98,15 @@ impl PyJob {
     fn wait(&self, py: Python<'_>, timeout: Option<f64>) -> PyResult<bool> {
         let seconds = timeout.map(|seconds| Duration::try_from_secs_f64(seconds.max(0.0))).transpose();
         let limit = seconds.map_err(|e| errors::option(py, format!("timeout: {e}"), "give fewer seconds, or None"))?;
-        either!(self, work => work.wait_for(py, limit))
+        either!(self, work => work::wait_for(work, py, limit))
     }
 
-    /// Waits until the work has ended and returns what came of it, the same each time; raises what `simplify` or `remesh`
-    /// would have raised.
+    /// Waits until the work has ended and returns what came of it, the same each time; raises what `simplify` or
+    /// `remesh` would have raised.
     fn result(&self, py: Python<'_>) -> PyResult<Py<PyAny>> {
         match &self.0 {
-            Kind::Simplify(work) => Ok(Py::new(py, work.outcome(py)?)?.into_any()),
-            Kind::Remesh(work) => Ok(Py::new(py, work.outcome(py)?)?.into_any()),
+            Kind::Simplify(work) => Ok(Py::new(py, work::outcome(work, py)?)?.into_any()),
+            Kind::Remesh(work) => Ok(Py::new(py, work::outcome(work, py)?)?.into_any()),
         }
     }
 

@@ -79,8 +79,8 @@ impl PyMesh {
         self.0.cells.is_volume()
     }
 
-    /// The boundary faces, outward: (f, 3 or 4) uint32. Labels, facets and locks are numbered like them. The boundary of a
-    /// surface is its cells.
+    /// The boundary faces, outward: (f, 3 or 4) uint32. Labels, facets and locks are numbered like them. The boundary
+    /// of a surface is its cells.
     ///
     /// Raises:
     ///     InvalidMesh: more than two cells share a face.
@@ -91,11 +91,13 @@ impl PyMesh {
         numpy::PyArray1::from_vec(py, flat).call_method1("reshape", (-1, columns))
     }
 
-    /// Writes the mesh whole or not at all. The extension tells the format: obj, off, ply, stl (surfaces), mesh, vtk, vtu.
+    /// Writes the mesh whole or not at all. The extension tells the format: obj, off, ply, stl (surfaces), mesh, vtk,
+    /// vtu.
     ///
     /// Args:
     ///     path: the file.
-    ///     fields: numbers per cell by name, (m,) integers or floats; held by ply, vtk and vtu; mesh holds `label` or else `block_id`.
+    ///     fields: numbers per cell by name, (m,) integers or floats; held by ply, vtk and vtu; mesh holds `label`
+    ///         or else `block_id`.
     ///
     /// Raises:
     ///     FileError: the file cannot be written.
@@ -222,8 +224,8 @@ pub fn read(py: Python<'_>, path: PathBuf) -> PyResult<PyMesh> {
     py.detach(|| mesh::read(&path)).map(PyMesh::from).map_err(|e| errors::about(py, &e, None))
 }
 
-/// Reads a shape and the polycube that it was deformed to. The order is SHAPE FIRST, then polycube, in the arguments and in
-/// the tuple that is returned. (`simplify` takes the polycube first; the C++ and Rust `read_pair`, too.)
+/// Reads a shape and the polycube that it was deformed to. The order is SHAPE FIRST, then polycube, in the arguments
+/// and in the tuple that is returned. (`simplify` takes the polycube first; the C++ and Rust `read_pair`, too.)
 ///
 /// Raises:
 ///     Mismatch: they do not have the same vertices and cells; and what `read` raises.

@@ -144,8 +144,8 @@ impl<'py> Keywords<'py> {
             return Ok(Guides::default());
         };
         let text: String = self.py().import("json")?.call_method1("dumps", (given,))?.extract()?;
-        let remedy = "give {\"fixed\": [facet], \"together\": [[facet, facet]], \"apart\": [[facet, facet]], \"symmetry\": \
-                      [{\"axis\": 0, \"at\": 0.0}]}";
+        let remedy = "give {\"fixed\": [facet], \"together\": [[facet, facet]], \"apart\": [[facet, facet]], \
+                      \"symmetry\": [{\"axis\": 0, \"at\": 0.0}]}";
         serde_json::from_str(&text).map_err(|e| errors::option(self.py(), format!("guides: {e}"), remedy))
     }
 

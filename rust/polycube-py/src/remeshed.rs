@@ -341,8 +341,8 @@ impl PyRemeshed {
         self.0.report.simplify.notes.clone()
     }
 
-    /// What was done and how good it is, as in the command's report.json: that of `Simplified`, and hexes, quads, inverted,
-    /// inverted_cells, min_sj, avg_sj, histogram, volume, hausdorff; seconds has all stages.
+    /// What was done and how good it is, as in the command's report.json: that of `Simplified`, and hexes, quads,
+    /// inverted, inverted_cells, min_sj, avg_sj, histogram, volume, hausdorff; seconds has all stages.
     #[getter]
     fn report<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
         to_dict(py, &self.0.report)
@@ -356,9 +356,9 @@ impl PyRemeshed {
 
 /// Simplifies a polycube and meshes its shape with the blocks found: coarse layout, quadrilaterals, hexahedra.
 ///
-/// The hexahedra are untangled and optimised with the surface sliding on the shape. Where some stay inverted, or the surface is
-/// farther from the shape than asked for, the result is given all the same and `good` is False. The same input gives the
-/// same result, bit by bit. Other Python threads run meanwhile; Ctrl-C cancels.
+/// The hexahedra are untangled and optimised with the surface sliding on the shape. Where some stay inverted, or the
+/// surface is farther from the shape than asked for, the result is given all the same and `good` is False. The same
+/// input gives the same result, bit by bit. Other Python threads run meanwhile; Ctrl-C cancels.
 ///
 /// The order is SHAPE FIRST, then polycube (`simplify` takes the polycube first).
 ///
@@ -371,11 +371,11 @@ impl PyRemeshed {
 ///     scale: lattice steps per unit of the polycube. 1 if its levels are integers, else one step per mean mesh edge.
 ///     padding: layers of hexahedra between the polycube and the surface, 0 to 16.
 ///     surface_only: leave the hexahedra out.
-///     max_hausdorff: the largest distance between mesh and shape to accept, in percent of the diagonal (C++ and Rust take a
-///         fraction of it).
+///     max_hausdorff: the largest distance between mesh and shape to accept, in percent of the diagonal (C++ and
+///         Rust take a fraction of it).
 ///     max_displacement: only with "best", the farthest that a corner may move, in units of the polycube.
-///     simplicity: only with "best", from 1, the fewest blocks, to 0, the least displacement. If neither this nor a limit is given, the fewest blocks
-///         whose hexahedra are good.
+///     simplicity: only with "best", from 1, the fewest blocks, to 0, the least displacement. If neither this nor a
+///         limit is given, the fewest blocks whose hexahedra are good.
 ///     strategy, objective, max_distortion, locked_faces, guides, steps, proof_nodes, time_limit, lambda_min, solver,
 ///         angle_tolerance, level_tolerance, progress, cancel: as in `simplify`. "naive" meshes the polycube as it is.
 ///
@@ -390,7 +390,11 @@ impl PyRemeshed {
 #[pyfunction]
 #[pyo3(
     signature = (shape, polycube, *, progress=None, cancel=None, **options),
-    text_signature = "(shape, polycube, *, labels=None, hexes=None, edge_length=None, scale=None, padding=1, surface_only=False, max_hausdorff=0.5, strategy='best', objective=None, simplicity=None, max_displacement=None, max_distortion=None, locked_faces=None, guides=None, steps=400, proof_nodes=200, time_limit=None, lambda_min=0.0, solver='exact', angle_tolerance=30.0, level_tolerance=0.05, progress=None, cancel=None)"
+    text_signature = "(shape, polycube, *, labels=None, hexes=None, edge_length=None, scale=None, padding=1, \
+        surface_only=False, max_hausdorff=0.5, strategy='best', objective=None, simplicity=None, \
+        max_displacement=None, max_distortion=None, locked_faces=None, guides=None, steps=400, \
+        proof_nodes=200, time_limit=None, lambda_min=0.0, solver='exact', angle_tolerance=30.0, \
+        level_tolerance=0.05, progress=None, cancel=None)"
 )]
 pub fn remesh<'py>(
     py: Python<'py>,

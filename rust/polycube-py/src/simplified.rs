@@ -125,8 +125,8 @@ impl PySimplified {
 
 #[pymethods]
 impl PySimplified {
-    /// The simplified polycube in lattice units, with the vertices and cells of the input; None when it is not valid, which
-    /// only the strategy "naive" can bring about.
+    /// The simplified polycube in lattice units, with the vertices and cells of the input; None when it is not valid,
+    /// which only the strategy "naive" can bring about.
     #[getter]
     fn polycube(&self) -> Option<PyMesh> {
         self.0.polycube.clone()
@@ -195,8 +195,9 @@ impl PySimplified {
         to_dict(py, &self.0.result.report)
     }
 
-    /// Another point of the same front, from 1, the fewest blocks, to 0, the least displacement: for a slider. Nothing is searched
-    /// again; it takes the time of the morph. As in `simplify`, other threads run and `progress` and `cancel` are heeded.
+    /// Another point of the same front, from 1, the fewest blocks, to 0, the least displacement: for a slider. Nothing
+    /// is searched again; it takes the time of the morph. As in `simplify`, other threads run and `progress` and
+    /// `cancel` are heeded.
     ///
     /// Raises:
     ///     InvalidOption: `simplicity` is out of its range, or there is no front: only the strategy "best" makes one.
@@ -213,9 +214,9 @@ impl PySimplified {
         self.again(py, &Listener { progress, cancel }, at)
     }
 
-    /// The same result at another scale, in lattice steps per unit of the input: the same blocks on a finer or coarser lattice.
-    /// Nothing is searched again; it takes the time of the morph. As in `simplify`, other threads run and `progress` and
-    /// `cancel` are heeded.
+    /// The same result at another scale, in lattice steps per unit of the input: the same blocks on a finer or coarser
+    /// lattice. Nothing is searched again; it takes the time of the morph. As in `simplify`, other threads run and
+    /// `progress` and `cancel` are heeded.
     ///
     /// Raises:
     ///     InvalidOption: `scale` is not a positive number, or too large for the lattice.
@@ -246,27 +247,30 @@ impl PySimplified {
 
 /// Simplifies a polycube: moves its facets so that corners align and few blocks are left.
 ///
-/// Facets, edges and corners stay; the result is a valid polycube on the integer lattice and never has more blocks. The same
-/// input gives the same result, bit by bit. Other Python threads run meanwhile; Ctrl-C cancels.
+/// Facets, edges and corners stay; the result is a valid polycube on the integer lattice and never has more blocks. The
+/// same input gives the same result, bit by bit. Other Python threads run meanwhile; Ctrl-C cancels.
 ///
-/// The order is POLYCUBE FIRST, then shape, which may be left out (`remesh` takes the shape first). Name them to be sure:
-/// `simplify(polycube=cube, shape=shape)`. Lengths are in units of the polycube.
+/// The order is POLYCUBE FIRST, then shape, which may be left out (`remesh` takes the shape first). Name them to be
+/// sure: `simplify(polycube=cube, shape=shape)`. Lengths are in units of the polycube.
 ///
 /// Args:
 ///     polycube: the mesh whose boundary faces look along the axes.
-///     shape: the mesh that it was deformed from, with the same cells; the distortion of the map is measured against it.
+///     shape: the mesh that it was deformed from, with the same cells; the distortion of the map is measured
+///         against it.
 ///     labels: (f,) 0 to 5 for each boundary face, -1 for "by the normal". By the normals if not given.
-///     strategy: "best" searches for the fewest blocks; "paper" is Algorithm 1 of the paper; "naive" rounds to the lattice,
-///         which may break the polycube.
+///     strategy: "best" searches for the fewest blocks; "paper" is Algorithm 1 of the paper; "naive" rounds to the
+///         lattice, which may break the polycube.
 ///     scale: lattice steps per unit of the polycube. 1 if its levels are integers, else one step per mean mesh edge.
 ///     edge_length: the same as a length: a lattice step in units of the polycube.
-///     objective: only with "best", what it makes small: "blocks_padded" (volumes), "blocks", or "surface_patches" (surfaces).
+///     objective: only with "best", what it makes small: "blocks_padded" (volumes), "blocks", or "surface_patches"
+///         (surfaces).
 ///     simplicity: only with "best", from 1, the fewest blocks, to 0, the least displacement.
 ///     max_displacement: only with "best", the farthest that a corner may move, in units of the polycube.
-///     max_distortion: only with "best", the largest mean angle distortion, 1 or more, of the map from the shape to the result.
+///     max_distortion: only with "best", the largest mean angle distortion, 1 or more, of the map from the shape to
+///         the result.
 ///     locked_faces: with every strategy, numbers of boundary faces whose facets must not move.
-///     guides: with every strategy, what else to keep: `{"fixed": facets, "together": [facets], "apart": [[facet, facet]], "symmetry":
-///         [{"axis": 0, "at": 0.0}]}`, by the numbers of `structure(polycube)`.
+///     guides: with every strategy, what else to keep: `{"fixed": facets, "together": [facets], "apart": [[facet,
+///         facet]], "symmetry": [{"axis": 0, "at": 0.0}]}`, by the numbers of `structure(polycube)`.
 ///     steps: how long "best" searches: moves tried per level in each of eight chains.
 ///     proof_nodes: how long it tries to prove that its result cannot be beaten.
 ///     time_limit: seconds; the search then stops, and the result may differ from run to run.
@@ -274,8 +278,8 @@ impl PySimplified {
 ///     solver: "exact" minimum cuts, or "linear" programs, which are slow.
 ///     angle_tolerance: largest angle between a face and the nearest axis, in degrees, 0 to 45.
 ///     level_tolerance: largest distance of a vertex from the plane of its facet, as a part of the diagonal, 0 to 1.
-///     progress: called on this thread now and then as `progress(stage, fraction)`, fraction from 0 to 1. What it returns is
-///         not looked at; what it raises stops the work and is raised by this call.
+///     progress: called on this thread now and then as `progress(stage, fraction)`, fraction from 0 to 1. What it
+///         returns is not looked at; what it raises stops the work and is raised by this call.
 ///     cancel: an object with `is_set()`, such as a `threading.Event`; once it is set, `Cancelled` is raised.
 ///
 /// Raises:
@@ -292,7 +296,10 @@ impl PySimplified {
 #[pyfunction]
 #[pyo3(
     signature = (polycube, shape=None, *, progress=None, cancel=None, **options),
-    text_signature = "(polycube, shape=None, *, labels=None, strategy='best', scale=None, edge_length=None, objective=None, simplicity=1.0, max_displacement=None, max_distortion=None, locked_faces=None, guides=None, steps=400, proof_nodes=200, time_limit=None, lambda_min=0.0, solver='exact', angle_tolerance=30.0, level_tolerance=0.05, progress=None, cancel=None)"
+    text_signature = "(polycube, shape=None, *, labels=None, strategy='best', scale=None, edge_length=None, \
+        objective=None, simplicity=1.0, max_displacement=None, max_distortion=None, locked_faces=None, \
+        guides=None, steps=400, proof_nodes=200, time_limit=None, lambda_min=0.0, solver='exact', \
+        angle_tolerance=30.0, level_tolerance=0.05, progress=None, cancel=None)"
 )]
 pub fn simplify<'py>(
     py: Python<'py>,

@@ -207,8 +207,8 @@ impl PyStructure {
         self.0.polycube.structure.genus()
     }
 
-    /// How far the mesh is from an exact polycube: the largest angle between a face and its axis, in degrees, and the largest
-    /// distance of a vertex from the plane of its facet, in units of the mesh.
+    /// How far the mesh is from an exact polycube: the largest angle between a face and its axis, in degrees, and the
+    /// largest distance of a vertex from the plane of its facet, in units of the mesh.
     #[getter]
     fn deviation(&self) -> (f64, f64) {
         (self.0.polycube.deviation.degrees, self.0.polycube.deviation.distance)

@@ -2,18 +2,12 @@
 
 use crate::errors;
 use polycube::{Context, Error, ErrorKind};
+use polycube_host::Host;
 use pyo3::prelude::*;
-use std::any::Any;
-use std::panic::{AssertUnwindSafe, catch_unwind};
-use std::sync::{Arc, Condvar, Mutex, MutexGuard, PoisonError};
-use std::thread;
 use std::time::{Duration, Instant};
 
-/// How often a waiting call listens to signals and reports progress.
+/// How often waiting for a job listens to signals.
 const POLL: Duration = Duration::from_millis(30);
-
-/// As much as the main thread has on most systems.
-const STACK: usize = 8 << 20;
 
 /// An error, and the middle of the element it is about.
 #[derive(Clone)]
@@ -28,6 +22,10 @@ impl Failure {
         let at = error.place.and_then(|place| mesh.middle(place));
         Self { error: Box::new(error), at }
     }
+
+    fn raise(&self, py: Python<'_>) -> PyErr {
+        errors::raise(py, &self.error, self.at)
+    }
 }
 
 impl From<Error> for Failure {
@@ -37,112 +35,48 @@ impl From<Error> for Failure {
 }
 
 /// What the work came to.
-type Outcome<T> = Result<T, Failure>;
+pub type Outcome<T> = Result<T, Failure>;
 
-struct Shared<T> {
-    stage: Mutex<String>,
-    outcome: Mutex<Option<Outcome<T>>>,
-    finished: Condvar,
+/// Work going on in the background.
+pub type Work<T> = polycube_host::Work<T, Failure>;
+
+/// Starts `task` in the background.
+///
+/// # Errors
+/// [`ErrorKind::Internal`] when the system gives no thread.
+pub fn start<T: Send + 'static>(
+    py: Python<'_>,
+    task: impl FnOnce(&Context) -> Outcome<T> + Send + 'static,
+) -> PyResult<Work<T>> {
+    Work::start(task).map_err(|e| errors::raise(py, &e, None))
 }
 
-/// Work going on. Dropping it cancels it.
-pub struct Work<T> {
-    context: Context,
-    shared: Arc<Shared<T>>,
-}
-
-impl<T> Drop for Work<T> {
-    fn drop(&mut self) {
-        self.context.cancel();
-    }
-}
-
-/// Nothing panics while it holds a lock, and if it did, the value would be whole all the same.
-fn lock<T>(mutex: &Mutex<T>) -> MutexGuard<'_, T> {
-    mutex.lock().unwrap_or_else(PoisonError::into_inner)
-}
-
-impl<T: Clone + Send + 'static> Work<T> {
-    /// Starts `task`.
-    ///
-    /// # Errors
-    /// [`ErrorKind::Internal`] when the system gives no thread.
-    pub fn start(task: impl FnOnce(&Context) -> Outcome<T> + Send + 'static) -> polycube::Result<Self> {
-        let shared = Arc::new(Shared { stage: Mutex::default(), outcome: Mutex::new(None), finished: Condvar::new() });
-        let watched = Arc::clone(&shared);
-        let context = Context::new(move |stage, _| {
-            let mut known = lock(&watched.stage);
-            if *known != stage {
-                stage.clone_into(&mut known);
-            }
-        });
-        let work = Self { context: context.clone(), shared: Arc::clone(&shared) };
-        let run = move || {
-            let outcome = catch_unwind(AssertUnwindSafe(|| task(&context)));
-            let outcome = outcome.unwrap_or_else(|panic| Err(Failure::from(panicked(&*panic))));
-            *lock(&shared.outcome) = Some(outcome);
-            shared.finished.notify_all();
-        };
-        let started = thread::Builder::new().name("polycube".into()).stack_size(STACK).spawn(run);
-        started.map_err(|e| Error::new(ErrorKind::Internal, format!("cannot start a thread: {e}")))?;
-        Ok(work)
-    }
-
-    /// Asks the work to stop.
-    pub fn cancel(&self) {
-        self.context.cancel();
-    }
-
-    /// The stage and the fraction done.
-    pub fn progress(&self) -> (String, f64) {
-        (lock(&self.shared.stage).clone(), self.context.progress())
-    }
-
-    /// Whether there is an outcome.
-    pub fn is_done(&self) -> bool {
-        lock(&self.shared.outcome).is_some()
-    }
-
-    /// Waits at most `time` and tells whether there is an outcome.
-    fn wait(&self, time: Duration) -> bool {
-        let outcome = lock(&self.shared.outcome);
-        let waited = self.shared.finished.wait_timeout_while(outcome, time, |outcome| outcome.is_none());
-        waited.unwrap_or_else(PoisonError::into_inner).0.is_some()
-    }
-
-    /// Waits at most `time` for an outcome, or for ever, letting other Python threads run and hearing signals.
-    ///
-    /// # Errors
-    /// What a signal handler raised.
-    pub fn wait_for(&self, py: Python<'_>, time: Option<Duration>) -> PyResult<bool> {
-        let end = time.and_then(|time| Instant::now().checked_add(time));
-        loop {
-            let left = end.map_or(POLL, |end| POLL.min(end.saturating_duration_since(Instant::now())));
-            if py.detach(|| self.wait(left)) {
-                return Ok(true);
-            }
-            if end.is_some_and(|end| Instant::now() >= end) {
-                return Ok(false);
-            }
-            py.check_signals()?;
+/// Waits at most `time` for an outcome, or for ever, letting other Python threads run and hearing signals.
+///
+/// # Errors
+/// What a signal handler raised.
+pub fn wait_for<T: Send + 'static>(work: &Work<T>, py: Python<'_>, time: Option<Duration>) -> PyResult<bool> {
+    let end = time.and_then(|time| Instant::now().checked_add(time));
+    loop {
+        let left = end.map_or(POLL, |end| POLL.min(end.saturating_duration_since(Instant::now())));
+        if py.detach(|| work.wait(left)) {
+            return Ok(true);
         }
-    }
-
-    /// What the work came to; waits for it.
-    pub fn outcome(&self, py: Python<'_>) -> PyResult<T> {
-        self.wait_for(py, None)?;
-        match lock(&self.shared.outcome).clone() {
-            Some(Ok(product)) => Ok(product),
-            Some(Err(failure)) => Err(errors::raise(py, &failure.error, failure.at)),
-            None => Err(errors::raise(py, &Error::new(ErrorKind::Internal, "the work came to nothing"), None)),
+        if end.is_some_and(|end| Instant::now() >= end) {
+            return Ok(false);
         }
+        py.check_signals()?;
     }
 }
 
-fn panicked(panic: &(dyn Any + Send)) -> Error {
-    let text = panic.downcast_ref::<&str>().copied().or(panic.downcast_ref::<String>().map(String::as_str));
-    let message = format!("the library failed: {}", text.unwrap_or("no message"));
-    Error::new(ErrorKind::Internal, message).remedy("please report it with the mesh")
+/// What the work came to; waits for it.
+///
+/// # Errors
+/// Those of the work, and what a signal handler raised.
+pub fn outcome<T: Clone + Send + 'static>(work: &Work<T>, py: Python<'_>) -> PyResult<T> {
+    wait_for(work, py, None)?;
+    let nothing = || Err(Error::new(ErrorKind::Internal, "the work came to nothing").into());
+    work.outcome().unwrap_or_else(nothing).map_err(|failure: Failure| failure.raise(py))
 }
 
 /// What a call listens to and reports to while it works.
@@ -153,43 +87,50 @@ pub struct Listener<'py> {
     pub cancel: Option<Bound<'py, PyAny>>,
 }
 
-impl Listener<'_> {
-    /// Runs `task` and waits for it: calls `progress` on this thread, listens to `cancel` and to Ctrl-C. What these raise
-    /// cancels the work and is raised once it has stopped.
-    pub fn run<T: Clone + Send + 'static>(
+impl<'py> Listener<'py> {
+    /// Runs `task` and waits for it: calls `progress` on this thread, listens to `cancel` and to Ctrl-C. What these
+    /// raise cancels the work and is raised once it has stopped.
+    pub fn run<T: Send + 'static>(
         &self,
-        py: Python<'_>,
-        task: impl FnOnce(&Context) -> Outcome<T> + Send + 'static,
+        py: Python<'py>,
+        task: impl FnOnce(&Context) -> Outcome<T> + Send,
     ) -> PyResult<T> {
-        let work = Work::start(task).map_err(|e| errors::raise(py, &e, None))?;
-        if let Err(raised) = self.attend(py, &work) {
-            work.cancel();
-            py.detach(|| while !work.wait(POLL) {});
-            return Err(raised);
-        }
-        work.outcome(py)
+        let mut caller = Caller { py, listener: self, raised: None };
+        let outcome = polycube_host::run(&mut caller, task);
+        caller.raised.map_or_else(|| outcome.map_err(|failure| failure.raise(py)), Err)
     }
 
-    fn attend<T: Clone + Send + 'static>(&self, py: Python<'_>, work: &Work<T>) -> PyResult<()> {
-        let mut reported = None;
-        loop {
-            if let Some(cancel) = &self.cancel
-                && cancel.call_method0("is_set")?.is_truthy()?
-            {
-                work.cancel();
-            }
-            let done = py.detach(|| work.wait(POLL));
-            py.check_signals()?;
-            let now = work.progress();
-            if let Some(progress) = &self.progress
-                && reported.as_ref() != Some(&now)
-            {
-                progress.call1(now.clone())?;
-                reported = Some(now);
-            }
-            if done {
-                return Ok(());
-            }
-        }
+    fn wants_to_stop(&self, py: Python<'py>) -> PyResult<bool> {
+        py.check_signals()?;
+        self.cancel.as_ref().map_or(Ok(false), |cancel| cancel.call_method0("is_set")?.is_truthy())
+    }
+
+    fn report(&self, stage: &str, fraction: f64) -> PyResult<()> {
+        self.progress.as_ref().map_or(Ok(()), |progress| progress.call1((stage, fraction)).map(drop))
+    }
+}
+
+/// The Python code that made a call, and what it raised meanwhile.
+struct Caller<'a, 'py> {
+    py: Python<'py>,
+    listener: &'a Listener<'py>,
+    raised: Option<PyErr>,
+}
+
+impl Host for Caller<'_, '_> {
+    fn wants_to_stop(&mut self) -> bool {
+        self.listener.wants_to_stop(self.py).unwrap_or_else(|raised| {
+            self.raised = Some(raised);
+            true
+        })
+    }
+
+    fn report(&mut self, stage: &str, progress: f64) -> bool {
+        self.raised = self.listener.report(stage, progress).err();
+        self.raised.is_none()
+    }
+
+    fn meanwhile(&mut self, wait: impl FnOnce() -> bool + Send) -> bool {
+        self.py.detach(wait)
     }
 }
