@@ -1,6 +1,6 @@
 //! What went wrong, as a message for people and an exit code for programs.
 
-use crate::terminal;
+use crate::output::terminal;
 use polycube::{Error, ErrorKind, Place};
 use std::fmt;
 use std::path::Path;
@@ -43,7 +43,8 @@ impl Failure {
         }
     }
 
-    /// An error of work on the mesh of `file` with the `guides` of another. Only what the guides cannot have gets their name.
+    /// An error of work on the mesh of `file` with the `guides` of another. Only what the guides cannot have gets their
+    /// name.
     pub fn in_files(file: &Path, guides: Option<&Path>) -> impl Fn(Error) -> Self {
         move |error| match guides {
             Some(guides) if is_about_guides(&error) => error.in_file(guides.display()).into(),
@@ -51,8 +52,8 @@ impl Failure {
         }
     }
 
-    /// An error of reading a mesh. A file that holds none cannot be understood, which is another matter than a mesh that is no
-    /// polycube.
+    /// An error of reading a mesh. A file that holds none cannot be understood, which is another matter than a mesh
+    /// that is no polycube.
     pub fn in_reading(error: Error) -> Self {
         let code = if error.kind == ErrorKind::Mesh { FAILURE } else { code(error.kind) };
         Self { error, code }

@@ -1,34 +1,19 @@
 //! The `polycube` command.
 
-mod args;
-mod colour;
-mod compare;
-mod completions;
-mod demo;
-mod effect;
+mod commands;
 mod failure;
-mod guides;
-mod inspect;
-mod mesh_files;
+mod input;
+mod options;
 mod output;
-mod pareto;
-mod progress;
-mod remesh;
-mod report;
-mod search;
-mod simplify;
-mod table;
-mod terminal;
-mod validate;
-mod view;
 
-use args::{Cli, Command};
 use clap::FromArgMatches;
+use commands::Cli;
 use failure::{Failure, USAGE};
+use options::effect;
 use std::process::ExitCode;
 
 fn main() -> ExitCode {
-    let mut command = args::command();
+    let mut command = commands::command();
     let parsed = command.try_get_matches_from_mut(std::env::args_os());
     let parsed = parsed.and_then(|m| Ok((Cli::from_arg_matches(&m).map_err(|e| e.format(&mut command))?, m)));
     let (cli, matches) = match parsed {
@@ -38,17 +23,7 @@ fn main() -> ExitCode {
     if let Err(failure) = effect::check(&matches) {
         return failure.report();
     }
-    let done = match cli.command {
-        Command::Simplify(args) => simplify::run(&args),
-        Command::Remesh(args) => remesh::run(&args),
-        Command::Compare(args) => compare::run(&args),
-        Command::Inspect(args) => inspect::run(&args),
-        Command::Validate(args) => validate::run(&args),
-        Command::Demo(args) => demo::run(&args),
-        Command::View(args) => view::run(&args),
-        Command::Completions(args) => completions::run(&args),
-    };
-    done.unwrap_or_else(|failure: Failure| failure.report())
+    commands::run(cli.command).unwrap_or_else(|failure: Failure| failure.report())
 }
 
 /// Prints what clap has to say: help on standard output, wrong usage on standard error.

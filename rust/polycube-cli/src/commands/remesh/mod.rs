@@ -1,0 +1,188 @@
+//! `polycube remesh`.
+
+mod files;
+
+use crate::failure::{Failure, INFERIOR, Result};
+use crate::input::meshes::MeshFiles;
+use crate::options::choice::ChoiceArgs;
+use crate::options::format::format;
+use crate::options::mesh::MeshArgs;
+use crate::options::number::percent;
+use crate::options::polycube::{LabelsArg, ToleranceArgs};
+use crate::options::run::{FolderArg, QuietArg};
+use crate::options::search::SearchArgs;
+use crate::options::strategy::StrategyArg;
+use crate::output::folder::{LABELS, Output, REPORT};
+use crate::output::progress::Progress;
+use crate::output::report::{Files, RemeshRun};
+use crate::output::{table, terminal};
+use clap::ValueHint;
+use files::{Formats, MESHES, files};
+use polycube::Context;
+use polycube::mesh::{self, Format};
+use polycube::remesh::{RemeshOptions, Remeshed, remesh};
+use polycube::simplify::Options;
+use std::path::{Path, PathBuf};
+use std::process::ExitCode;
+use std::time::Instant;
+
+const NOTES: &str = "\
+In the output folder:
+  layout.vtk      the coarse layout: one hexahedron per block
+  layout.obj      the same on the surface: one quadrilateral per patch
+  quads.obj       the quadrilateral mesh, its vertices on the shape
+  hexes.mesh      the hexahedral mesh, and as
+  hexes.vtu       with the cell arrays scaled_jacobian, block_id and label
+  polycube.EXT    the polycube on the lattice, with the connectivity of the input
+  polycube.labels the label of each of its boundary faces, one a line, for --labels
+  report.json     that of `simplify`, and hexes, inverted, min_sj, avg_sj, hausdorff, quads,
+                  histogram, times
+They appear together when all is done, or not at all. With --surface-only there are no hexahedra
+and no layout.vtk. --format EXT writes hexahedra (or, if it holds surfaces only, quadrilaterals) in
+that format, too; quads.ply has a colour for each patch.
+--hexes N with --surface-only: the lattice is as fine as for N hexahedra, and the quadrilaterals
+are those of its surface, not N.
+Exit code 4: the meshes are written, but hexahedra are inverted (scaled_jacobian of 0 or less in
+hexes.vtu) or the surface is farther from the shape than --max-hausdorff.
+`polycube --help` lists the exit codes, `polycube simplify --help` shows a file of guides.";
+
+/// What to mesh and how.
+#[derive(clap::Args, Clone, Debug)]
+#[command(after_help = NOTES)]
+pub struct Args {
+    /// The shape: a mesh file with the vertices and cells of the polycube
+    #[arg(value_name = "SHAPE", value_hint = ValueHint::FilePath)]
+    pub shape: PathBuf,
+
+    /// The polycube: a mesh file whose boundary faces look along the axes
+    #[arg(long, value_name = "POLYCUBE", value_hint = ValueHint::FilePath)]
+    pub polycube: PathBuf,
+
+    /// What its boundary faces look along.
+    #[command(flatten)]
+    pub labels: LabelsArg,
+
+    /// How far the polycube may be from an exact one.
+    #[command(flatten)]
+    pub tolerance: ToleranceArgs,
+
+    /// Where the results go.
+    #[command(flatten)]
+    pub output: FolderArg,
+
+    /// What is meshed, and how fine.
+    #[command(flatten)]
+    pub mesh: MeshArgs,
+
+    /// How the levels find their places; `naive` meshes the polycube as it is, for comparison
+    #[arg(long, value_enum, default_value_t)]
+    pub strategy: StrategyArg,
+
+    /// Which result of `best` is meshed.
+    #[command(flatten)]
+    pub choice: ChoiceArgs,
+
+    /// How long and how it is searched, and what must stay.
+    #[command(flatten)]
+    pub search: SearchArgs,
+
+    /// The largest Hausdorff distance between mesh and shape to accept, in percent of the bounding box's diagonal
+    #[arg(long, value_name = "PERCENT", value_parser = percent, default_value_t = 0.5)]
+    pub max_hausdorff: f64,
+
+    /// Write the mesh in this format, too: obj, off, ply, mesh, vtk or vtu
+    #[arg(long, value_name = "EXT", value_parser = format)]
+    pub format: Option<Format>,
+
+    /// Whether it is silent.
+    #[command(flatten)]
+    pub quiet: QuietArg,
+}
+
+impl Args {
+    fn options(&self) -> RemeshOptions {
+        let simplify = Options { strategy: self.strategy.0, tolerance: self.tolerance.get(), ..Options::default() };
+        self.mesh.set(RemeshOptions {
+            simplify: self.search.set(self.choice.set(simplify)),
+            max_hausdorff: self.max_hausdorff / 100.0,
+            ..RemeshOptions::default()
+        })
+    }
+
+    fn inputs(&self) -> Vec<&Path> {
+        [&self.shape, &self.polycube].into_iter().chain(&self.labels.file).map(PathBuf::as_path).collect()
+    }
+
+    fn files(&self) -> Files {
+        let name = |path: &Path| path.display().to_string();
+        Files {
+            polycube: name(&self.polycube),
+            shape: Some(name(&self.shape)),
+            labels: self.labels.file.as_deref().map(name),
+        }
+    }
+}
+
+/// Runs the subcommand.
+pub fn run(args: &Args) -> Result<ExitCode> {
+    let progress = Progress::start(args.quiet.on)?;
+    let result = work(args, &progress.context)?;
+    drop(progress);
+    if !args.quiet.on {
+        let place = format!("written to {}\n", args.output.folder.display());
+        terminal::print(&(table::remesh_summary(&result.report) + &place))?;
+    }
+    if result.report.is_good() {
+        return Ok(ExitCode::SUCCESS);
+    }
+    for note in result.report.faults() {
+        terminal::print_error(&format!("warning: {note}"));
+    }
+    Ok(ExitCode::from(INFERIOR))
+}
+
+/// Reads, meshes, writes.
+pub fn work(args: &Args, context: &Context) -> Result<Remeshed> {
+    let start = Instant::now();
+    context.stage("read", 0.0, 0.05).tick(0.0)?;
+    let meshes = MeshFiles::read(&args.polycube, Some(&args.shape), args.labels.file.as_deref())?;
+    let formats = Formats::new(&args.polycube, args.format, &meshes)?;
+    let read = start.elapsed().as_secs_f64();
+    let middle = context.stage("read", 0.05, 0.95);
+    let about = Failure::in_files(&args.polycube, args.search.guides.as_deref());
+    let (input, mut options) = (meshes.input(), args.options());
+    options.simplify.guides = args.search.guides(&args.polycube, &input, &options.simplify.tolerance)?;
+    let mut result = remesh(&input, &options, &middle).map_err(about)?;
+    result.report.simplify.seconds.read = read;
+    let done = start.elapsed().as_secs_f64();
+    let elapsed = || start.elapsed().as_secs_f64() - done;
+    write(args, (&mut result, &options), &formats, &context.stage("write", 0.95, 1.0), elapsed)?;
+    Ok(result)
+}
+
+fn write(
+    args: &Args,
+    (result, options): (&mut Remeshed, &RemeshOptions),
+    formats: &Formats,
+    context: &Context,
+    elapsed: impl Fn() -> f64,
+) -> Result<()> {
+    let mut output = Output::new(&args.output.folder)?;
+    let files = files(result, formats);
+    for (i, file) in files.iter().enumerate() {
+        context.tick(i as f64 / files.len() as f64)?;
+        let name = format!("{}.{}", file.name, file.format);
+        output.add(&name, &mesh::write_bytes(file.format, file.mesh, &file.fields)?)?;
+    }
+    let labels: String = result.simplified.input.labels().map(|l| format!("{}\n", l.index())).collect();
+    output.add(LABELS, labels.as_bytes())?;
+    let polycube = format!("polycube.{}", formats.polycube);
+    drop(files);
+    let seconds = &mut result.report.simplify.seconds;
+    seconds.write = elapsed();
+    seconds.total += seconds.read + seconds.write;
+    let run = RemeshRun { input: &args.files(), options: options.into(), output: &polycube, report: &result.report };
+    output.add(REPORT, terminal::to_json(&run)?.as_bytes())?;
+    let stale = output.meshes_left(&MESHES);
+    Ok(output.publish(&stale, &args.inputs(), context)?)
+}

@@ -1,0 +1,4 @@
+//! What a run reads.
+
+pub mod guides;
+pub mod meshes;

@@ -1,0 +1,66 @@
+//! The polycube that a subcommand works on.
+
+use super::number::{degrees, fraction};
+use clap::{Args, ValueHint};
+use polycube::structure::Tolerance;
+use std::path::PathBuf;
+
+/// The mesh and its labels.
+#[derive(Args, Clone, Debug)]
+pub struct PolycubeArgs {
+    /// The polycube: a mesh file whose boundary faces look along the axes
+    #[arg(value_name = "POLYCUBE", value_hint = ValueHint::FilePath)]
+    pub polycube: PathBuf,
+
+    /// What its boundary faces look along.
+    #[command(flatten)]
+    pub labels: LabelsArg,
+
+    /// How far the mesh may be from an exact polycube.
+    #[command(flatten)]
+    pub tolerance: ToleranceArgs,
+}
+
+/// The labels of a polycube.
+#[derive(Args, Clone, Debug, Default)]
+pub struct LabelsArg {
+    /// Label file: one integer a line for each boundary face, 0 to 5 for +X -X +Y -Y +Z -Z, -1 for "by the normal"
+    #[arg(long = "labels", id = "labels", value_name = "FILE", value_hint = ValueHint::FilePath)]
+    pub file: Option<PathBuf>,
+}
+
+/// How far a mesh may be from a polycube.
+#[derive(Args, Clone, Debug, Default)]
+pub struct ToleranceArgs {
+    /// Largest angle between a face and the nearest axis, in degrees from 0 to 45 [default: 30]
+    #[arg(long, value_name = "DEG", value_parser = degrees)]
+    pub angle_tolerance: Option<f64>,
+
+    /// Largest distance of a vertex from the plane of its facet, as a fraction of the bounding box's diagonal, from 0
+    /// to 1 [default: 0.05]
+    #[arg(long, value_name = "F", value_parser = fraction)]
+    pub level_tolerance: Option<f64>,
+}
+
+impl ToleranceArgs {
+    /// The tolerance asked for; the library's defaults where nothing was said.
+    pub fn get(&self) -> Tolerance {
+        let default = Tolerance::default();
+        Tolerance {
+            degrees: self.angle_tolerance.unwrap_or(default.degrees),
+            distance: self.level_tolerance.unwrap_or(default.distance),
+            ..default
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_defaults_in_the_help_are_those_of_the_library() {
+        let found = ToleranceArgs::default().get();
+        assert_eq!((found.degrees, found.distance), (30.0, 0.05));
+    }
+}
