@@ -69,7 +69,7 @@ def processor_time():
 
 
 def milliseconds(work, runs=1):
-    """The shortest time that `work` takes or, where that is less because the machine is busy, its mean processor time."""
+    """The shortest time that `work` takes or, if that is less as the machine is busy, its mean processor time."""
     best, before = float("inf"), processor_time()
     for _ in range(runs):
         start = time.perf_counter()
@@ -79,8 +79,8 @@ def milliseconds(work, runs=1):
 
 
 def process(call):
-    """Milliseconds that a process takes from start to end or, where that is less because the machine is busy, of processor
-    time; and the most memory that it has, in MB."""
+    """Milliseconds that a process takes from start to end or, where that is less because the machine is busy, of
+    processor time; and the most memory that it has, in MB."""
     start = time.perf_counter()
     running = subprocess.Popen([str(word) for word in call], stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
     _, status, used = os.wait4(running.pid, 0)

@@ -33,7 +33,7 @@ def _as_key(source, output):
 
 
 def place(context, source, simplified, output):
-    """Makes a new shape key or object of a result and shows it. What was there is kept, and hidden where it is covered."""
+    """Makes a new shape key or object of a result and shows it. What was there is kept, hidden where it is covered."""
     if simplified.polycube is None:
         raise faults.Refused("rounding broke the polycube: " + "; ".join(simplified.notes), "use the strategy Best or Paper")
     as_key = _as_key(source, output)

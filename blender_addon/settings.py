@@ -2,7 +2,8 @@
 """What the user chooses: the inputs in the panel, and the options that panel and operators share.
 
 An option is declared once, in a mix-in class. The scene's settings hold what the panel shows; an operator has the same
-properties for its redo panel and for scripts, and takes those that were not given from the scene (see `Options.settle`).
+properties for its redo panel and for scripts, and takes those that were not given from the scene (see
+`Options.settle`).
 """
 
 import math

@@ -4,8 +4,8 @@
 #
 #   fetch_headers.sh VERSION DIR      VERSION is 2020.09, 2022.02 or 2025.07; DIR gets src/ and vcglib/
 #
-# DEBIAN_MIRROR=URL takes it from there. Exit code 3: Debian no longer has that version (only its releases stay; 2025.07 is
-# from its testing suite). 4: it could not be asked.
+# DEBIAN_MIRROR=URL takes it from there. Exit code 3: Debian no longer has that version (only its releases stay; 2025.07
+# is from its testing suite). 4: it could not be asked.
 set -euo pipefail
 
 version=$1 out=$2

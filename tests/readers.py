@@ -1,8 +1,8 @@
 """Reads the meshes of `polycube remesh` with other programs and counts their blocks and patches independently.
 
 For each pair: meshio, gmsh and VTK (through PyVista) read every file with the counts of the report, every volume is
-positive and their sum is the reported one, the scaled Jacobians written are those computed here, and the base complex and
-the patches, traced here from the definition, are as many as reported.
+positive and their sum is the reported one, the scaled Jacobians written are those computed here, and the base complex
+and the patches, traced here from the definition, are as many as reported.
 """
 
 import json

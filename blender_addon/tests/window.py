@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Works the extension in Blender's real window, with simulated clicks and keys, and takes pictures.
 
-Started by `tests/blender_gui` as `blender --enable-event-simulate --python window.py -- FOLDER`. Writes FOLDER/done when
-all went well, FOLDER/failed with the reason otherwise.
+Started by `tests/blender_gui` as `blender --enable-event-simulate --python window.py -- FOLDER`. Writes FOLDER/done
+when all went well, FOLDER/failed with the reason otherwise.
 """
 
 import os

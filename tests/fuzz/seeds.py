@@ -1,4 +1,4 @@
-"""Writes small files of every format into a folder, each after the byte that chooses its format in the target `files`."""
+"""Writes small files of every format into a folder, each after the byte that chooses it in the target `files`."""
 
 import pathlib
 import sys

@@ -86,7 +86,8 @@ fn the_front_ends_at_the_input_on_a_lattice_that_holds_it() {
     }
 }
 
-/// The largest step between points of a front that come next to each other, as a part of all the way from the fewest blocks to the most.
+/// The largest step between points of a front that come next to each other, as a part of all the way from the fewest
+/// blocks to the most.
 fn largest_step(result: &Alignment) -> f64 {
     let counts: Vec<usize> = result.front.iter().map(|p| p.count).collect();
     let all = counts[counts.len() - 1] - counts[0];

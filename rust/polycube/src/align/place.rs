@@ -1,8 +1,9 @@
 //! Integer placements that keep an order of levels.
 //!
-//! Minimise Σ corners · (x − target)² with equal levels equal and others at least one step apart. The order is total, so
-//! taking off one step per plane leaves an isotonic regression on a chain: adjacent planes that would pass each other are pooled at their
-//! common mean. Its integer optimum is the rounded real one, and bounds on the chain's ends only clip it.
+//! Minimise Σ corners · (x − target)² with equal levels equal and others at least one step apart. The order is total,
+//! so taking off one step per plane leaves an isotonic regression on a chain: adjacent planes that would pass each
+//! other are pooled at their common mean. Its integer optimum is the rounded real one, and bounds on the chain's ends
+//! only clip it.
 
 use super::guides::Guided;
 use super::problem::Problem;

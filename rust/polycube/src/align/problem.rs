@@ -7,8 +7,8 @@
 //! subject to  x_high − x_low ≥ gap   and   Σ coefficient · x ≥ at_least
 //! ```
 //!
-//! This is Eq. 1 of the paper with one unknown per facet instead of one per corner coordinate: collinearity (Eq. 2) then
-//! holds by construction, lengths (Eq. 3) are differences, and separation planes (Eq. 4) are general linear rows.
+//! This is Eq. 1 of the paper with one unknown per facet instead of one per corner coordinate: collinearity (Eq. 2)
+//! then holds by construction, lengths (Eq. 3) are differences, and separation planes (Eq. 4) are general linear rows.
 //!
 //! Targets are rounded once to multiples of `2^−FRACTION_BITS`. From then on cost and marginal costs are integers in
 //! units of `2^−(halvings + 2 · FRACTION_BITS)`, so every machine takes the same decisions.

@@ -30,8 +30,8 @@ pub struct Demand<'a> {
 /// The optimal valid placement for `demand`, found from `valid`, which satisfies its differences up to rounding.
 ///
 /// The solver knows distances only between parts that face each other. When parts that did not face each other
-/// come to touch, the distance that kept them apart in `valid` is added and the problem is solved again. This ends: each
-/// time another change of order is forbidden, and with all of them forbidden the order is that of `valid`.
+/// come to touch, the distance that kept them apart in `valid` is added and the problem is solved again. This ends:
+/// each time another change of order is forbidden, and with all of them forbidden the order is that of `valid`.
 pub fn relax(
     structure: &Structure,
     valid: &[f64],

@@ -16,11 +16,12 @@ pub struct Pieces {
 }
 
 impl Pieces {
-    /// Finds the pieces of all boundary faces of `polycube`, whose vertices lie at `points` and whose levels at `placement`.
+    /// Finds the pieces of all boundary faces of `polycube`, whose vertices lie at `points` and whose levels at
+    /// `placement`.
     ///
-    /// Faces need not follow the lines of the layout, nor lie exactly in their facets: the point of the facet nearest to the
-    /// middle of the face decides. `placement` must be free of conflicts. O(c + f t) for c lattice cells, f faces and t
-    /// tiles of a facet.
+    /// Faces need not follow the lines of the layout, nor lie exactly in their facets: the point of the facet nearest
+    /// to the middle of the face decides. `placement` must be free of conflicts. O(c + f t) for c lattice cells, f
+    /// faces and t tiles of a facet.
     pub fn of_faces(polycube: &Polycube, points: &[Point], placement: &[f64]) -> Self {
         let arrangement = Arrangement::new(&polycube.structure, placement);
         let table = Table::new(&arrangement);

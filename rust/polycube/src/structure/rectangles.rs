@@ -27,8 +27,9 @@ struct Open {
 
 /// The rectangles that tile `facet` under `placement`, by the levels of their sides.
 ///
-/// A plane sweep over the facet's sides. `None` where the region is covered more than once or from the wrong side, so that
-/// its loops do not bound a plane region. O(k log k) for k sides when few of them overlap along the sweep, O(k²) at worst.
+/// A plane sweep over the facet's sides. `None` where the region is covered more than once or from the wrong side, so
+/// that its loops do not bound a plane region. O(k log k) for k sides when few of them overlap along the sweep, O(k²)
+/// at worst.
 pub fn rectangles(structure: &Structure, facet: &Facet, placement: &[f64]) -> Option<Vec<LevelBox>> {
     let axis = facet.label.axis();
     let (u, v) = ((axis + 1) % 3, (axis + 2) % 3);

@@ -59,9 +59,9 @@ pub fn near_corners(
 /// For every corner and axis the nearest of the `near` corners that it can align with, each pair once, ascending; of
 /// equally near ones the first.
 ///
-/// Along an axis a pair can align if its levels are not aligned yet, if another axis is left to keep the corners apart, if
-/// `differences` do not force them apart, and if (c) its middle lies inside the polycube. The last two take longest and
-/// are asked only of pairs that are nearer than what is known.
+/// Along an axis a pair can align if its levels are not aligned yet, if another axis is left to keep the corners apart,
+/// if `differences` do not force them apart, and if (c) its middle lies inside the polycube. The last two take longest
+/// and are asked only of pairs that are nearer than what is known.
 pub fn candidates(
     arrangement: &Arrangement,
     near: &[[u32; 2]],

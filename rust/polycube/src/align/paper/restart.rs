@@ -74,8 +74,8 @@ pub fn descend(task: &Task, targets: &[f64], placing: &Guided, context: &Context
 /// A valid placement with what it counts.
 type Counted = (Placement, Counts);
 
-/// One run of Algorithm 1 on `from`, settled near the start or, if only that is as coarse, near `from`; nothing if the guides do
-/// not allow where it ends.
+/// One run of Algorithm 1 on `from`, settled near the start or, if only that is as coarse, near `from`; nothing if the
+/// guides do not allow where it ends.
 fn improve(task: &Task, from: &[f64], settings: &Settings, context: &Context) -> Result<(Option<Counted>, Vec<Step>)> {
     let structure = task.structure;
     let own = Unit::of(structure, from).apply(structure, from);

@@ -48,8 +48,8 @@ struct Closing<'a> {
 impl<'a> Rules<'a> {
     /// The rules of a structure and the relations that follow from them.
     ///
-    /// O(e² + n³) for e edges and n levels of an axis, in memory for n² pairs; a contradiction when the structure has no
-    /// embedding at all.
+    /// O(e² + n³) for e edges and n levels of an axis, in memory for n² pairs; a contradiction when the structure has
+    /// no embedding at all.
     pub fn new(structure: &'a Structure) -> Result<(Self, Relations), Contradiction> {
         let pairs = Pairs::new(structure);
         let mut relations = Relations::new(&pairs);

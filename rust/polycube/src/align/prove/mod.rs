@@ -137,7 +137,8 @@ pub fn prove(
     prove_guided(structure, &free, objective, incumbent, (budget, time_limit), context)
 }
 
-/// [`prove`] for the orders that guides allow, of which `incumbent` must be one: both the bound and what is found are theirs.
+/// [`prove`] for the orders that guides allow, of which `incumbent` must be one: both the bound and what is found are
+/// theirs.
 ///
 /// What must be equal and what must differ is propagated from the start; orders that are not mirrored, or crowd what is
 /// fixed, are dropped once they are complete.

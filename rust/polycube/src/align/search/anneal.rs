@@ -45,7 +45,8 @@ pub struct Landscape<'a> {
     pub weights: &'a [f64],
     /// The least distance of two planes, in units of the input.
     pub gap: f64,
-    /// The displacement of all corners, as a root mean square in units of the input, that doubles the count at weight 1.
+    /// The displacement of all corners, as a root mean square in units of the input, that doubles the count at weight
+    /// 1.
     pub unit: f64,
     /// When to stop whatever is left to do.
     pub deadline: Option<Instant>,

@@ -6,7 +6,8 @@ use super::front::Front;
 use crate::context::Context;
 use crate::error::{Error, ErrorKind, Result};
 
-/// The first chains, two from the result of Algorithm 1 and two from that of greedy merging, of which one each minds displacement.
+/// The first chains, two from the result of Algorithm 1 and two from that of greedy merging, of which one each minds
+/// displacement.
 const FIRST: [Schedule; 4] = [
     WARM,
     Schedule { seed: 2, hot: 0.1, ..WARM },
@@ -17,8 +18,8 @@ const FIRST: [Schedule; 4] = [
 const WARM: Schedule =
     Schedule { seed: 1, steps: 0, hot: 0.05, cold: 0.002, weight: 0.01, paired: false, most: f64::INFINITY };
 
-/// The last chains, two by two from the coarsest state so far, cooler, with two levels at once. On large polycubes they find what
-/// single levels do not; small ones are done before.
+/// The last chains, two by two from the coarsest state so far, cooler, with two levels at once. On large polycubes they
+/// find what single levels do not; small ones are done before.
 const LAST: [Schedule; 4] = {
     const COOL: Schedule = Schedule { seed: 5, hot: 0.02, cold: 0.001, paired: true, ..WARM };
     [COOL, Schedule { seed: 6, ..COOL }, Schedule { seed: 7, ..COOL }, Schedule { seed: 8, ..COOL }]
@@ -57,8 +58,8 @@ pub fn walk(
     Ok(())
 }
 
-/// Makes the front denser: chains that may move corners seven tenths as far as the coarsest state does, less far, and so on, each from the
-/// coarsest state that keeps its bound.
+/// Makes the front denser: chains that may move corners seven tenths as far as the coarsest state does, less far, and
+/// so on, each from the coarsest state that keeps its bound.
 pub fn fill(landscape: &Landscape, effort: &Effort, front: &mut Front, context: &Context) -> Result<()> {
     let Some(farthest) = front.states().next().map(State::shape_cost) else { return Ok(()) };
     let steps = effort.steps_per_level / SHORTER;

@@ -53,9 +53,10 @@ fn trade_off(task: &Task, state: &State) -> TradeOff {
     }
 }
 
-/// Goes on with the front to the input's own order where, on the lattice that is asked for, that moves corners less than the end that
-/// the search found. The search keeps planes half the shortest edge apart, so that planes nearer to each other are better together;
-/// on a finer lattice they can stay as they are. What lies between is what merging meets on the way. The first point stays.
+/// Goes on with the front to the input's own order where, on the lattice that is asked for, that moves corners less
+/// than the end that the search found. The search keeps planes half the shortest edge apart, so that planes nearer to
+/// each other are better together; on a finer lattice they can stay as they are. What lies between is what merging
+/// meets on the way. The first point stays.
 fn go_on_to_input(task: &Task, judge: &mut Judge, front: &mut Vec<TradeOff>, context: &Context) -> Result<()> {
     let ranks = Ranks::new(task.structure, task.input);
     let Some(last) = front.last() else { return Ok(()) };
@@ -84,7 +85,8 @@ fn go_on_to_input(task: &Task, judge: &mut Judge, front: &mut Vec<TradeOff>, con
     Ok(())
 }
 
-/// The front that merging meets from the order `input` on, when planes may be as near to each other as on the lattice that is asked for.
+/// The front that merging meets from the order `input` on, when planes may be as near to each other as on the lattice
+/// that is asked for.
 fn merged(task: &Task, input: &Ranks, context: &Context) -> Result<Front> {
     let prepared = Prepared::new(task);
     let landscape = prepared.landscape(task);
@@ -109,8 +111,8 @@ fn displacement(task: &Task, levels: &[i64]) -> f64 {
     task.structure.max_displacement(&task.targets, &placement)
 }
 
-/// The trade-off that the options ask for, and its levels: the coarsest within the displacement allowed or, where none is,
-/// the one with the least displacement.
+/// The trade-off that the options ask for, and its levels: the coarsest within the displacement allowed or, where none
+/// is, the one with the least displacement.
 fn choose(task: &Task, front: &[TradeOff], context: &Context) -> Result<(usize, Vec<i64>)> {
     let options = task.options;
     let mut index = TradeOff::index(options.simplicity, front.len());
@@ -140,7 +142,8 @@ pub fn place_trade_off(task: &Task, point: &TradeOff, context: &Context) -> Resu
     Ok(if displacement(task, &own) < displacement(task, &near) { own } else { near })
 }
 
-/// The order with the alignments of `found` nearest to the input, if it counts no more and the guides allow it; else `found`.
+/// The order with the alignments of `found` nearest to the input, if it counts no more and the guides allow it; else
+/// `found`.
 fn relaxed(task: &Task, found: &Ranks, context: &Context) -> Result<Ranks> {
     let Task { structure, options, .. } = *task;
     let fine = Unit::of(structure, task.input).apply(structure, task.input);

@@ -63,11 +63,11 @@ pub fn is_searchable(structure: &Structure) -> bool {
 /// How much more than any other the displacement of a fixed level counts.
 const FIXED: f64 = 1e4;
 
-/// Searches for the order with the smallest count, starting from that of `paper`, a valid placement, and from that of the input;
-/// solids that stay separate are searched one by one.
+/// Searches for the order with the smallest count, starting from that of `paper`, a valid placement, and from that of
+/// the input; solids that stay separate are searched one by one.
 ///
-/// The result counts no more than either, and than greedy merging from the input. The start of the task stands for the input
-/// where guides do not allow the input itself.
+/// The result counts no more than either, and than greedy merging from the input. The start of the task stands for the
+/// input where guides do not allow the input itself.
 pub fn search(task: &Task, paper: &[f64], context: &Context) -> Result<Found> {
     let parts = if task.guided.is_free() { parts::split(task.structure, &task.start) } else { Vec::new() };
     if parts.len() < 2 { search_whole(task, paper, context) } else { search_parts(task, paper, &parts, context) }

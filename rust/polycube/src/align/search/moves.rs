@@ -54,9 +54,10 @@ impl Moves {
 
     /// A random change of `from` and the axis it is on, or nothing if the one drawn breaks an edge.
     ///
-    /// One in eight merges a whole plane with the next. The others take one level a few planes up or down, onto a plane or
-    /// between two; half of these push the levels ahead of it that an edge keeps there. If `paired`, every other change
-    /// is one of two levels at once. Where the input is symmetric, half of the changes are made on the mirrored levels, too.
+    /// One in eight merges a whole plane with the next. The others take one level a few planes up or down, onto a plane
+    /// or between two; half of these push the levels ahead of it that an edge keeps there. If `paired`, every other
+    /// change is one of two levels at once. Where the input is symmetric, half of the changes are made on the mirrored
+    /// levels, too.
     pub fn draw(&self, from: &Ranks, paired: bool, random: &mut SplitMix64) -> Option<(Ranks, usize)> {
         let level = random.below(self.axis_of.len() as u64) as u32;
         let axis = self.axis_of[level as usize];
@@ -89,8 +90,8 @@ impl Moves {
         Some(by)
     }
 
-    /// Moves a second level, by as much or by another amount: mostly one that an edge joins to the first, so that what lies between
-    /// them moves as a whole.
+    /// Moves a second level, by as much or by another amount: mostly one that an edge joins to the first, so that what
+    /// lies between them moves as a whole.
     fn change_another(
         &self,
         axis: usize,
@@ -157,7 +158,8 @@ impl Moves {
         }
     }
 
-    /// Gives the images of all levels whose keys changed the mirrored keys; nothing if both changed to what does not fit.
+    /// Gives the images of all levels whose keys changed the mirrored keys; nothing if both changed to what does not
+    /// fit.
     fn mirror(&self, axis: usize, from: &Ranks, keys: &mut [i32]) -> Option<()> {
         let Some(images) = &self.images[axis] else { return Some(()) };
         let whole = BETWEEN * (from.planes[axis] as i32 + 1);
@@ -175,8 +177,8 @@ impl Moves {
         Some(())
     }
 
-    /// Moves a level, with its partners, to a key, and the levels that an edge keeps ahead of it to just ahead of it, and so on; nothing if
-    /// that is not allowed.
+    /// Moves a level, with its partners, to a key, and the levels that an edge keeps ahead of it to just ahead of it,
+    /// and so on; nothing if that is not allowed.
     fn clear_the_way(
         &self,
         axis: usize,

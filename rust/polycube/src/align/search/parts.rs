@@ -1,8 +1,9 @@
 //! Solids that never meet are searched one by one.
 //!
-//! Sheets and patches do not leave the solid they are in, so what an order of all levels counts is the sum of what it counts in each
-//! solid. If the boxes around solids are separate along some axis, every order of the one goes with every order of the
-//! other, as long as they stay separate along this axis. So the least sum is the sum of the least, and so are lower bounds.
+//! Sheets and patches do not leave the solid they are in, so what an order of all levels counts is the sum of what it
+//! counts in each solid. If the boxes around solids are separate along some axis, every order of the one goes with
+//! every order of the other, as long as they stay separate along this axis. So the least sum is the sum of the least,
+//! and so are lower bounds.
 
 use super::Found;
 use super::anneal::{Chain, State};
@@ -132,8 +133,8 @@ fn ascending(items: impl Iterator<Item = u32>) -> Vec<u32> {
     items
 }
 
-/// Trade-offs of the whole from those of its parts: from the coarsest of all on, in each step the part gives way that saves most
-/// displacement for a block. What does not fit together is left out.
+/// Trade-offs of the whole from those of its parts: from the coarsest of all on, in each step the part gives way that
+/// saves most displacement for a block. What does not fit together is left out.
 pub fn combine(
     task: &Task,
     parts: &[Part],
@@ -158,8 +159,8 @@ pub fn combine(
     }
 }
 
-/// One order of all levels that has the given order in each part and keeps the parts separate, as near to the input as it can be; nothing
-/// if that is not valid.
+/// One order of all levels that has the given order in each part and keeps the parts separate, as near to the input as
+/// it can be; nothing if that is not valid.
 fn merged(task: &Task, parts: &[Part], states: &[&State], context: &Context) -> Result<Option<Ranks>> {
     let structure = task.structure;
     let fine = Unit::of(structure, task.input).apply(structure, task.input);
@@ -184,7 +185,8 @@ fn merged(task: &Task, parts: &[Part], states: &[&State], context: &Context) -> 
     }
     differences.extend(separations(task, parts, states));
     let demand = Demand { targets: &fine, classes: &classes, pairs: &[], halvings: 0, differences, planes: Vec::new() };
-    // Any order that satisfies the demand will do to begin with: the solver finds the nearest, and the judge looks at it.
+    // Any order that satisfies the demand will do to begin with: the solver finds the nearest, and the judge looks at
+    // it.
     match relax(structure, &fine, demand, &*task.options.solver.solver(), context) {
         Ok(placement) => Ok(Some(Ranks::new(structure, &placement))),
         Err(error) if error.kind == crate::ErrorKind::Cancelled => Err(error),
@@ -192,8 +194,8 @@ fn merged(task: &Task, parts: &[Part], states: &[&State], context: &Context) -> 
     }
 }
 
-/// What keeps every two parts separate along the axis on which they are farthest apart in the start: the highest plane of the one, in the
-/// order given, below the lowest of the other.
+/// What keeps every two parts separate along the axis on which they are farthest apart in the start: the highest plane
+/// of the one, in the order given, below the lowest of the other.
 fn separations(task: &Task, parts: &[Part], states: &[&State]) -> Vec<Difference> {
     let end = |k: usize, axis: usize, key: &dyn Fn(usize) -> f64| {
         let own = (0..parts[k].levels.len()).filter(|&l| parts[k].structure.levels[l].axis == axis);

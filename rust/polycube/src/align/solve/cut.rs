@@ -68,7 +68,8 @@ impl Network {
         self.supply.iter().any(|&s| s > 0)
     }
 
-    /// After [`saturate`](Self::saturate): whether `v` is on the source side of the minimum cut that has the largest one.
+    /// After [`saturate`](Self::saturate): whether `v` is on the source side of the minimum cut that has the largest
+    /// one.
     pub(super) fn on_source_side(&self, v: usize) -> bool {
         self.distance[v] == NONE
     }

@@ -2,7 +2,8 @@
 //!
 //! What a polycube's lattice looks like depends on the order of its levels alone. [`Rows`] takes that order as one
 //! rank per level and answers in some dozen word operations per row of cells: is it a valid polycube, and how
-//! many blocks has it. It agrees with [`Arrangement`](crate::structure::Arrangement), [`Complex`](super::Complex) and the separatrices.
+//! many blocks has it. It agrees with [`Arrangement`](crate::structure::Arrangement), [`Complex`](super::Complex) and
+//! the separatrices.
 
 mod patches;
 mod sheets;
@@ -53,7 +54,8 @@ impl<R: Word> Marks<R> {
 
 /// A lattice whose rows of cells along the first axis are words of type `R`, with its work space.
 ///
-/// Bit `i` of row `(j, k)` is the cell above plane `i` along the first axis, and likewise `j` and `k`; planes count from 1.
+/// Bit `i` of row `(j, k)` is the cell above plane `i` along the first axis, and likewise `j` and `k`; planes count
+/// from 1.
 pub struct Rows<R> {
     axes: [usize; 3],
     walls: Vec<Wall>,
@@ -103,7 +105,8 @@ impl<R: Word> Counter for Rows<R> {
 /// The most levels that the axis with the fewest levels can have for [`counter`].
 pub const MOST_LEVELS: usize = 1022;
 
-/// [`Rows`] of the narrowest words that hold the structure; nothing if it has more than [`MOST_LEVELS`] levels along every axis.
+/// [`Rows`] of the narrowest words that hold the structure; nothing if it has more than [`MOST_LEVELS`] levels along
+/// every axis.
 pub fn counter(structure: &Structure) -> Option<Box<dyn Counter>> {
     let axis = row_axis(structure);
     let levels = structure.levels.iter().filter(|l| l.axis == axis).count();

@@ -7,7 +7,8 @@ use super::{Rows, spread_down, spread_up};
 type EdgeBits<R> = [Vec<R>; 3];
 
 impl<R: Word> Rows<R> {
-    /// Patches of the surface, as [`Separatrices`](super::super::separatrices::Separatrices) counts them. The order must be valid.
+    /// Patches of the surface, as [`Separatrices`](super::super::separatrices::Separatrices) counts them. The order
+    /// must be valid.
     pub(super) fn patches(&self) -> usize {
         let (flat, sharp) = self.surface_edges();
         let marked = self.separatrices(&flat, &sharp);
@@ -67,7 +68,8 @@ impl<R: Word> Rows<R> {
         [(any[0] | any[1] | any[2]) & !inside, inside]
     }
 
-    /// Carries marks over the vertices of a row: straight on, and over a polycube edge to the flat edge on its other side.
+    /// Carries marks over the vertices of a row: straight on, and over a polycube edge to the flat edge on its other
+    /// side.
     fn pass_on(&self, marked: &mut EdgeBits<R>, flat: &EdgeBits<R>, row: usize, [corner, on_edge]: [R; 2]) {
         let nj = self.size[0];
         if (marked[0][row] | marked[1][row] | marked[1][row - 1] | marked[2][row] | marked[2][row - nj]).is_zero() {

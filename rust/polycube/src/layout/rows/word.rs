@@ -2,8 +2,8 @@
 
 use std::ops::{BitAnd, BitOr, BitXor, Not, Shl, Shr};
 
-/// A row of bits; bit 0 is the lowest. Shifts by the width or more give zero bits for [`Wide`] only, so rows never shift
-/// that far.
+/// A row of bits; bit 0 is the lowest. Shifts by the width or more give zero bits for [`Wide`] only, so rows never
+/// shift that far.
 pub trait Word:
     Copy
     + PartialEq

@@ -12,8 +12,8 @@ const UNKNOWN: u32 = u32::MAX;
 /// How many insertions pass between two reports.
 const REPORT: usize = 512;
 
-/// Four vertices of positive volume and the cell opposite each. In a cell with the vertex at infinity, which is its first,
-/// every point outside the hull's facet would give a positive volume in its place.
+/// Four vertices of positive volume and the cell opposite each. In a cell with the vertex at infinity, which is its
+/// first, every point outside the hull's facet would give a positive volume in its place.
 #[derive(Clone, Copy)]
 struct Cell {
     vertices: [u32; 4],

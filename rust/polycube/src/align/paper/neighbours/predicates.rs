@@ -26,7 +26,8 @@ trait Number: Copy + Add<Output = Self> + Sub<Output = Self> + Mul<Output = Self
 impl Number for f64 {}
 impl Number for i128 {}
 
-/// The sign of the volume of `abcd`: +1, 0 where they are coplanar, or −1. No two coordinates are further apart than `extent`.
+/// The sign of the volume of `abcd`: +1, 0 where they are coplanar, or −1. No two coordinates are further apart than
+/// `extent`.
 pub(super) fn orient([a, b, c, d]: [Point; 4], extent: f64) -> i32 {
     let rows = [a, b, c].map(|q| minus(q, d));
     let det = det3(rows);
@@ -40,8 +41,8 @@ pub(super) fn orient([a, b, c, d]: [Point; 4], extent: f64) -> i32 {
     det3(rows.map(|row| row.map(whole))).signum() as i32
 }
 
-/// Where `e` lies for the positively oriented `abcd`: +1 inside the circumsphere, 0 on it, −1 outside. No two coordinates
-/// are further apart than `extent`.
+/// Where `e` lies for the positively oriented `abcd`: +1 inside the circumsphere, 0 on it, −1 outside. No two
+/// coordinates are further apart than `extent`.
 pub(super) fn in_sphere(cell: [Point; 4], e: Point, extent: f64) -> i32 {
     let rows = cell.map(|q| minus(q, e));
     let m = minors(&rows);
