@@ -3,6 +3,7 @@
 use crate::error::{Error, ErrorKind, Place, Result};
 use crate::mesh::Mesh;
 use crate::rng::SplitMix64;
+use petgraph::unionfind::UnionFind;
 
 /// Moves every facet of a surface along its axis by `offset(facet)`; each facet stays flat.
 ///
@@ -66,45 +67,22 @@ fn facets(mesh: &Mesh, labels: &[i8]) -> (Vec<Option<usize>>, usize) {
         let axis = labels[i] as usize / 2;
         mesh.cells.cell(i).iter().map(move |v| 3 * *v as usize + axis)
     };
-    let mut sets = Sets::new(3 * mesh.points.len());
+    let mut sets = UnionFind::<usize>::new(3 * mesh.points.len());
     for i in 0..labels.len() {
-        keys(i).zip(keys(i).skip(1)).for_each(|(a, b)| sets.join(a, b));
+        keys(i).zip(keys(i).skip(1)).for_each(|(a, b)| {
+            sets.union(a, b);
+        });
     }
     let mut number = vec![None; 3 * mesh.points.len()];
     let mut facet = number.clone();
     let mut count = 0;
     for key in (0..labels.len()).flat_map(keys) {
-        facet[key] = Some(*number[sets.root(key)].get_or_insert_with(|| {
+        facet[key] = Some(*number[sets.find_mut(key)].get_or_insert_with(|| {
             count += 1;
             count - 1
         }));
     }
     (facet, count)
-}
-
-/// Disjoint sets of the numbers below a bound.
-struct Sets {
-    parent: Vec<usize>,
-}
-
-impl Sets {
-    fn new(count: usize) -> Self {
-        Self { parent: (0..count).collect() }
-    }
-
-    fn root(&mut self, mut i: usize) -> usize {
-        while self.parent[i] != i {
-            self.parent[i] = self.parent[self.parent[i]];
-            i = self.parent[i];
-        }
-        i
-    }
-
-    fn join(&mut self, a: usize, b: usize) {
-        let (a, b) = (self.root(a), self.root(b));
-        // The smaller number as root keeps chains short enough: numbers follow the lattice.
-        self.parent[a.max(b)] = a.min(b);
-    }
 }
 
 fn shortest_edge(mesh: &Mesh) -> f64 {

@@ -1,6 +1,7 @@
 //! Splits a problem into parts that share no pair and no difference, each with its own numbering.
 
 use crate::align::problem::{Difference, PairTerm, Problem};
+use petgraph::unionfind::UnionFind;
 
 /// A connected part of a problem. Pairs and differences use positions in `variables`.
 #[derive(Default)]
@@ -15,15 +16,13 @@ pub(super) struct Part {
 
 /// The parts of `problem` in the order of their first variables. Linear constraints are ignored.
 pub(super) fn split(problem: &Problem) -> Vec<Part> {
-    let mut forest: Vec<u32> = (0..problem.len() as u32).collect();
+    let mut joined = UnionFind::<u32>::new(problem.len());
     let pairs = problem.pairs.iter().map(|p| (p.a, p.b));
     let differences = problem.differences.iter().map(|d| (d.low, d.high));
     for (a, b) in pairs.chain(differences) {
-        let (a, b) = (root(&mut forest, a), root(&mut forest, b));
-        // The lowest variable is the root, so parts come out in a fixed order.
-        forest[a.max(b) as usize] = a.min(b);
+        joined.union(a, b);
     }
-    let (mut parts, places) = number(&mut forest);
+    let (mut parts, places) = number(joined);
     for p in problem.pairs.iter().filter(|p| p.a != p.b) {
         let (part, a) = places[p.a as usize];
         let pair = PairTerm { a, b: places[p.b as usize].1, weight: p.weight };
@@ -38,27 +37,17 @@ pub(super) fn split(problem: &Problem) -> Vec<Part> {
 }
 
 /// Parts with their variables, and for each variable its part and its position there.
-fn number(forest: &mut [u32]) -> (Vec<Part>, Vec<(usize, u32)>) {
+fn number(joined: UnionFind<u32>) -> (Vec<Part>, Vec<(usize, u32)>) {
     let mut parts: Vec<Part> = Vec::new();
-    let mut places: Vec<(usize, u32)> = Vec::with_capacity(forest.len());
-    for v in 0..forest.len() {
-        let first = root(forest, v as u32) as usize;
-        if first == v {
+    let mut part_of_set = vec![None; joined.len()];
+    let place = |(v, set): (usize, u32)| {
+        let part = *part_of_set[set as usize].get_or_insert_with(|| {
             parts.push(Part::default());
-        }
-        let part = if first == v { parts.len() - 1 } else { places[first].0 };
-        places.push((part, parts[part].variables.len() as u32));
+            parts.len() - 1
+        });
         parts[part].variables.push(v);
-    }
+        (part, parts[part].variables.len() as u32 - 1)
+    };
+    let places = joined.into_labeling().into_iter().enumerate().map(place).collect();
     (parts, places)
-}
-
-/// The root of `v`, halving the way to it.
-fn root(forest: &mut [u32], mut v: u32) -> u32 {
-    while forest[v as usize] != v {
-        let up = forest[forest[v as usize] as usize];
-        forest[v as usize] = up;
-        v = up;
-    }
-    v
 }

@@ -4,9 +4,11 @@ use super::field::{CellField, FieldValues};
 use super::soup::Soup;
 use super::text::Text;
 use super::vtk_cells::{VtkCells, number_of, points};
-use super::vtu_data::{Arrays, base64};
+use super::vtu_data::Arrays;
 use crate::error::{Error, ErrorKind, Place, Result};
 use crate::mesh::Mesh;
+use base64::Engine;
+use base64::prelude::BASE64_STANDARD;
 use roxmltree::{Document, Node};
 
 /// Reads a mesh; the data on points and cells are ignored. Several pieces are put one after the other.
@@ -127,5 +129,5 @@ fn write_array(text: &mut Text, kind: &str, attributes: &str, data: impl Iterato
     let size = (bytes.len() - 8) as u64;
     bytes[..8].copy_from_slice(&size.to_le_bytes());
     text.put(format_args!("<DataArray type=\"{kind}\" {attributes} format=\"binary\">\n"));
-    text.put(base64(&bytes)).put("\n</DataArray>").end();
+    text.put(BASE64_STANDARD.encode(&bytes)).put("\n</DataArray>").end();
 }

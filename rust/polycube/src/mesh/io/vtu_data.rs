@@ -4,6 +4,8 @@ use super::scalar::{Endian, Scalar};
 use super::scan::Scanner;
 use super::vtu::{find, line_of};
 use crate::error::{Error, ErrorKind, Result};
+use base64::Engine;
+use base64::prelude::BASE64_STANDARD as STANDARD;
 use miniz_oxide::inflate::{TINFLStatus, decompress_to_vec_zlib_with_limit};
 use roxmltree::Node;
 
@@ -195,51 +197,21 @@ impl<'a> Source<'a> {
 
     /// Decodes four characters. Padding ends a part of the data, after which another may begin.
     fn quantum(&mut self, out: &mut Vec<u8>) -> Result<Option<()>> {
-        let (mut bits, mut digits, mut characters) = (0, 0, 0);
-        while characters < 4 {
+        let (mut characters, mut found) = ([0; 4], 0);
+        while found < 4 {
             let Some(&byte) = self.data.get(self.at) else {
                 return Ok(None);
             };
             self.at += 1;
-            if byte.is_ascii_whitespace() {
-                continue;
-            }
-            characters += 1;
-            bits <<= 6;
-            if byte != b'=' {
-                bits |= sextet(byte).ok_or_else(|| bad("the data are not base64"))?;
-                digits += 1;
+            if !byte.is_ascii_whitespace() {
+                characters[found] = byte;
+                found += 1;
             }
         }
-        let bytes = [(bits >> 16) as u8, (bits >> 8) as u8, bits as u8];
-        out.extend_from_slice(&bytes[..(digits * 6 / 8)]);
+        let mut bytes = [0; 3];
+        let decoded = STANDARD.decode_slice(characters, &mut bytes);
+        let length = decoded.map_err(|e| bad(&format!("the data are not base64: {e}")))?;
+        out.extend_from_slice(&bytes[..length]);
         Ok(Some(()))
     }
-}
-
-const ALPHABET: &[u8; 64] = b"ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
-
-fn sextet(byte: u8) -> Option<u32> {
-    Some(u32::from(match byte {
-        b'A'..=b'Z' => byte - b'A',
-        b'a'..=b'z' => byte - b'a' + 26,
-        b'0'..=b'9' => byte - b'0' + 52,
-        b'+' => 62,
-        b'/' => 63,
-        _ => return None,
-    }))
-}
-
-/// The data as base64 with padding.
-pub(super) fn base64(bytes: &[u8]) -> String {
-    let mut text = String::with_capacity(bytes.len().div_ceil(3) * 4);
-    for chunk in bytes.chunks(3) {
-        let byte = |i: usize| u32::from(chunk.get(i).copied().unwrap_or(0));
-        let bits = byte(0) << 16 | byte(1) << 8 | byte(2);
-        for i in 0..4 {
-            let digit = ALPHABET[(bits >> (18 - 6 * i)) as usize & 63];
-            text.push(if i <= chunk.len() { char::from(digit) } else { '=' });
-        }
-    }
-    text
 }
