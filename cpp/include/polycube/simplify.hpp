@@ -90,7 +90,7 @@ struct Options {
     Effort effort;
     /// How far `Strategy::best` goes, from 1, the fewest blocks (the default), to 0, the least displacement.
     std::optional<double> simplicity;
-    /// The farthest that `Strategy::best` may move a corner, in units of the polycube.
+    /// The farthest that `Strategy::best` may move a corner, in units of the polycube; 0 where none shall move.
     std::optional<double> max_displacement;
     /// The largest mean angle distortion of the map from the shape to the result of `Strategy::best` to accept, at
     /// least 1: of the front, the point with the fewest blocks that keeps it is taken.

@@ -1,7 +1,7 @@
 //! What went wrong, as a message for people and an exit code for programs.
 
 use crate::output::terminal;
-use polycube::{Error, ErrorKind, Place};
+use polycube::{Error, ErrorKind};
 use std::fmt;
 use std::path::Path;
 use std::process::ExitCode;
@@ -77,13 +77,9 @@ fn code(kind: ErrorKind) -> u8 {
     }
 }
 
-/// Facets are named, and planes, by guides alone; without guides there is a result.
+/// Without guides there is a result.
 fn is_about_guides(error: &Error) -> bool {
-    match error.kind {
-        ErrorKind::Infeasible => true,
-        ErrorKind::Option => matches!(error.place, Some(Place::Facet(_))) || error.message.contains("plane"),
-        _ => false,
-    }
+    error.kind == ErrorKind::Infeasible || error.option == Some("guides")
 }
 
 impl fmt::Display for Failure {

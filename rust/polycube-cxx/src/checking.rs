@@ -14,11 +14,11 @@ use polycube::validate::{Finding, Subject, validate};
 
 /// Lists the violations of `polycube validate`, or describes the structure.
 pub fn check(input: &InputView, data: &ToleranceData, observer: &Observer) -> Result<CheckedData> {
-    let (owned, tolerance) = guard(|| Ok((Owned::new(input)?, tolerance(data)?)))?;
+    let (owned, tolerance) = guard(|| Ok((Owned::new(input)?, tolerance(data))))?;
     run(observer, |context| {
         context.stage("structure", 0.0, 1.0).tick(0.0)?;
         let input = owned.input();
-        let findings = validate(&input, &tolerance);
+        let findings = validate(&input, &tolerance)?;
         let mut checked = CheckedData { violations: violations(findings, &input), structure: StructureData::default() };
         if checked.violations.is_empty() {
             let polycube = read_structure(&input, &tolerance)?;

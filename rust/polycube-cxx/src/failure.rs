@@ -21,7 +21,7 @@ impl From<Error> for Failure {
 
 impl fmt::Display for Failure {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let Error { kind, file, place, message, remedy } = &self.0;
+        let Error { kind, file, place, message, remedy, .. } = &self.0;
         let (element, index, second) = place.map_or((0, 0, 0), numbers);
         let message = file.iter().chain([message]).map(|text| plain(text)).collect::<Vec<_>>().join(": ");
         let s = SEPARATOR;

@@ -7,23 +7,22 @@ use crate::options::{defaults, options};
 use crate::results::{Simplified, json};
 use crate::run::run;
 use polycube::remesh::{self as core, Hexes, Layout, Quads, RemeshOptions, RemeshReport, Remeshed, Size};
-use polycube::simplify::Input;
 use polycube::{Error, ErrorKind};
 
 /// See `polycube::remesh::remesh`.
 pub fn remesh(input: &InputView, data: &RemeshOptionsData, observer: &Observer) -> Result<RemeshedData> {
     let (owned, options) = guard(|| {
         let owned = Owned::new(input)?;
-        let options = remesh_options(data, &owned.input())?;
+        let options = remesh_options(data)?;
         Ok((owned, options))
     })?;
     let result = run(observer, |context| core::remesh(&owned.input(), &options, context))?;
     guard(|| remeshed(result))
 }
 
-fn remesh_options(data: &RemeshOptionsData, input: &Input) -> polycube::Result<RemeshOptions> {
+fn remesh_options(data: &RemeshOptionsData) -> polycube::Result<RemeshOptions> {
     Ok(RemeshOptions {
-        simplify: options(&data.simplify, input)?,
+        simplify: options(&data.simplify)?,
         size: data.has_size.then(|| size(data)).transpose()?,
         padding: data.padding as usize,
         surface_only: data.surface_only,
@@ -101,7 +100,7 @@ impl From<&RemeshReport> for RemeshReportData {
             within_hausdorff: report.within_hausdorff,
             good: report.is_good(),
             seconds: report.seconds.total,
-            faults: report.faults(),
+            faults: report.faults().iter().map(ToString::to_string).collect(),
         }
     }
 }

@@ -3,10 +3,9 @@
 use crate::ffi::{GuidesData, OptionsData, Real, ToleranceData};
 use polycube::align::{Effort, Guides, SolverKind, Strategy, Symmetry};
 use polycube::layout::Objective;
-use polycube::simplify::{Input, Options, read_structure};
+use polycube::simplify::Options;
 use polycube::structure::Tolerance;
-use polycube::{Error, ErrorKind, Place, Result};
-use std::ops::RangeInclusive;
+use polycube::{Error, ErrorKind, Result};
 use std::time::Duration;
 
 const STRATEGIES: [Strategy; 3] = [Strategy::Naive, Strategy::Paper, Strategy::Best];
@@ -32,68 +31,49 @@ impl From<Tolerance> for ToleranceData {
     }
 }
 
-/// The core's options for `input`, which locked faces are looked up in.
+/// The core's options.
 ///
 /// # Errors
 /// [`ErrorKind::Option`] for a value out of its range.
-pub fn options(data: &OptionsData, input: &Input) -> Result<Options> {
+pub fn options(data: &OptionsData) -> Result<Options> {
     let effort = Effort {
         steps_per_level: data.steps_per_level,
         proof_nodes: data.proof_nodes,
         time_limit: data.time_limit.get().map(seconds).transpose()?,
     };
-    let objective = data.has_objective.then(|| pick(&OBJECTIVES, data.objective, "objective")).transpose()?;
-    let tolerance = tolerance(&data.tolerance)?;
     Ok(Options {
         strategy: pick(&STRATEGIES, data.strategy, "strategy")?,
         scale: data.scale.get(),
-        lambda_min: within("lambda_min", data.lambda_min, 0.0..=1.0)?,
+        lambda_min: data.lambda_min,
         solver: pick(&SOLVERS, data.solver, "solver")?,
-        objective,
+        objective: data.has_objective.then(|| pick(&OBJECTIVES, data.objective, "objective")).transpose()?,
         effort,
-        simplicity: data.simplicity.get().map(|x| within("simplicity", x, 0.0..=1.0)).transpose()?,
-        max_displacement: data.max_displacement.get().map(|x| positive("max_displacement", x)).transpose()?,
-        max_distortion: data.max_distortion.get().map(|x| within("max_distortion", x, 1.0..=f64::MAX)).transpose()?,
-        guides: guides(&data.guides, input, &tolerance)?,
-        tolerance,
+        simplicity: data.simplicity.get(),
+        max_displacement: data.max_displacement.get(),
+        max_distortion: data.max_distortion.get(),
+        guides: guides(&data.guides),
+        tolerance: tolerance(&data.tolerance),
         ..Options::default()
     })
 }
 
 /// The core's tolerance.
-///
-/// # Errors
-/// [`ErrorKind::Option`] for a value out of its range.
-pub fn tolerance(data: &ToleranceData) -> Result<Tolerance> {
-    Ok(Tolerance {
-        degrees: within("tolerance.degrees", data.degrees, 0.0..=45.0)?,
-        distance: within("tolerance.distance", data.distance, 0.0..=1.0)?,
-        merge: within("tolerance.merge", data.merge, 0.0..=1.0)?,
-    })
+pub fn tolerance(&ToleranceData { degrees, distance, merge }: &ToleranceData) -> Tolerance {
+    Tolerance { degrees, distance, merge }
 }
 
-fn guides(data: &GuidesData, input: &Input, tolerance: &Tolerance) -> Result<Guides> {
+fn guides(data: &GuidesData) -> Guides {
     let indices = |list: &[u32]| list.iter().map(|&i| i as usize).collect();
     let ends = data.together_ends.iter();
     let starts = std::iter::once(&0).chain(ends.clone());
-    let mut guides = Guides {
+    Guides {
         fixed: indices(&data.fixed),
+        fixed_faces: indices(&data.fixed_faces),
+        fixed_labels: Vec::new(),
         together: starts.zip(ends).map(|(&from, &to)| indices(&data.together[from..to])).collect(),
         apart: data.apart.iter().map(|p| [p.first as usize, p.second as usize]).collect(),
         symmetry: data.symmetry.iter().map(|s| Symmetry { axis: s.axis as usize, at: s.at }).collect(),
-    };
-    if data.fixed_faces.is_empty() {
-        return Ok(guides);
     }
-    let polycube = read_structure(input, tolerance)?;
-    let faces = polycube.facet_of_face.len();
-    if let Some(&face) = data.fixed_faces.iter().find(|&&f| f as usize >= faces) {
-        let message = format!("there are only {faces} boundary faces to lock");
-        return Err(Error::new(ErrorKind::Option, message).at(Place::Face(face)));
-    }
-    let fixed: Vec<usize> = indices(&data.fixed_faces);
-    guides.fix_faces(&polycube, &fixed);
-    Ok(guides)
 }
 
 fn pick<T: Copy>(all: &[T], index: u8, what: &str) -> Result<T> {
@@ -101,24 +81,12 @@ fn pick<T: Copy>(all: &[T], index: u8, what: &str) -> Result<T> {
     found.ok_or_else(|| Error::new(ErrorKind::Option, format!("there is no {what} number {index}")))
 }
 
-fn within(name: &str, value: f64, range: RangeInclusive<f64>) -> Result<f64> {
-    if range.contains(&value) {
-        return Ok(value);
-    }
-    let remedy = format!("use a number from {} to {}", range.start(), range.end());
-    Err(Error::new(ErrorKind::Option, format!("{name} is {value}")).remedy(remedy))
-}
-
-fn positive(name: &str, value: f64) -> Result<f64> {
-    if value.is_finite() && value > 0.0 {
-        return Ok(value);
-    }
-    Err(Error::new(ErrorKind::Option, format!("{name} is {value}")).remedy("use a number above 0"))
-}
-
 fn seconds(value: f64) -> Result<Duration> {
-    let duration = Duration::try_from_secs_f64(positive("time_limit", value)?);
-    duration.map_err(|e| Error::new(ErrorKind::Option, format!("time_limit is {value}: {e}")))
+    let duration = Duration::try_from_secs_f64(value).ok().filter(|_| value > 0.0);
+    duration.ok_or_else(|| {
+        let message = format!("time_limit is {value}");
+        Error::new(ErrorKind::Option, message).remedy("use a number of seconds above 0 that a clock can hold")
+    })
 }
 
 /// The defaults of the core, for C++ to compare its own with.

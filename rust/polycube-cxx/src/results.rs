@@ -18,7 +18,7 @@ pub struct Simplified(pub core::Simplified);
 pub fn simplify(input: &InputView, data: &OptionsData, observer: &Observer) -> Result<Box<Simplified>> {
     let (owned, options) = guard(|| {
         let owned = Owned::new(input)?;
-        let options = options(data, &owned.input())?;
+        let options = options(data)?;
         Ok((owned, options))
     })?;
     let result = run(observer, |context| core::simplify(&owned.input(), &options, context))?;
@@ -116,7 +116,7 @@ impl From<&Report> for ReportData {
             deviation_degrees: report.deviation.degrees,
             deviation_distance: report.deviation.distance,
             distortion: report.distortion.iter().flatten().map(DistortionData::from).collect(),
-            notes: report.notes.clone(),
+            notes: report.notes.iter().map(ToString::to_string).collect(),
         }
     }
 }

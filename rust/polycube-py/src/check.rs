@@ -102,6 +102,6 @@ pub fn check(
     keywords.finish()?;
     let shape = shape.map(|shape| &*shape.0);
     let input = Input { polycube: &polycube.0, shape, labels: labels.as_deref() };
-    let findings = py.detach(|| validate(&input, &tolerance));
+    let findings = py.detach(|| validate(&input, &tolerance)).map_err(|e| errors::raise(py, &e, None))?;
     Ok(findings.into_iter().map(PyViolation).collect())
 }

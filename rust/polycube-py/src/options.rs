@@ -4,7 +4,7 @@ use crate::arrays;
 use crate::errors;
 use polycube::align::{Effort, Guides, SolverKind, Strategy};
 use polycube::layout::Objective;
-use polycube::remesh::{MAX_PADDING, RemeshOptions, Size};
+use polycube::remesh::{RemeshOptions, Size};
 use polycube::simplify::Options;
 use polycube::structure::Tolerance;
 use pyo3::conversion::FromPyObjectOwned;
@@ -92,7 +92,7 @@ impl<'py> Keywords<'py> {
     }
 
     /// Takes the boundary faces whose facets must not move.
-    pub fn locked_faces(&self) -> PyResult<Vec<usize>> {
+    fn locked_faces(&self) -> PyResult<Vec<usize>> {
         let Some(faces) = self.take::<Bound<'py, PyAny>>("locked_faces")? else {
             return Ok(Vec::new());
         };
@@ -125,13 +125,13 @@ impl<'py> Keywords<'py> {
         Ok(Options {
             strategy: self.word("strategy", &STRATEGIES)?.unwrap_or_default(),
             scale: None,
-            lambda_min: self.fraction("lambda_min")?.unwrap_or(0.0),
+            lambda_min: self.take("lambda_min")?.unwrap_or(0.0),
             solver: self.word("solver", &SOLVERS)?.unwrap_or_default(),
             objective: self.word("objective", &OBJECTIVES)?,
             effort: self.effort()?,
-            simplicity: self.fraction("simplicity")?,
-            max_displacement: self.positive("max_displacement")?,
-            max_distortion: self.number("max_distortion", "of 1 or more", |x| x >= 1.0)?,
+            simplicity: self.take("simplicity")?,
+            max_displacement: self.take("max_displacement")?,
+            max_distortion: self.take("max_distortion")?,
             guides: self.guides()?,
             tolerance: self.tolerance()?,
             ..Options::default()
@@ -141,12 +141,15 @@ impl<'py> Keywords<'py> {
     /// Takes guides as the dictionary that a guide file of the command holds.
     fn guides(&self) -> PyResult<Guides> {
         let Some(given) = self.take::<Bound<'py, PyAny>>("guides")? else {
-            return Ok(Guides::default());
+            return Ok(Guides { fixed_faces: self.locked_faces()?, ..Guides::default() });
         };
         let text: String = self.py().import("json")?.call_method1("dumps", (given,))?.extract()?;
         let remedy = "give {\"fixed\": [facet], \"together\": [[facet, facet]], \"apart\": [[facet, facet]], \
                       \"symmetry\": [{\"axis\": 0, \"at\": 0.0}]}";
-        serde_json::from_str(&text).map_err(|e| errors::option(self.py(), format!("guides: {e}"), remedy))
+        let guides: Guides =
+            serde_json::from_str(&text).map_err(|e| errors::option(self.py(), format!("guides: {e}"), remedy))?;
+        let fixed_faces = [guides.fixed_faces, self.locked_faces()?].concat();
+        Ok(Guides { fixed_faces, ..guides })
     }
 
     fn effort(&self) -> PyResult<Effort> {
@@ -163,7 +166,7 @@ impl<'py> Keywords<'py> {
 
     /// Takes how a polycube is simplified.
     pub fn simplify(&self) -> PyResult<Options> {
-        let (scale, length) = (self.positive("scale")?, self.positive("edge_length")?);
+        let (scale, length) = (self.take("scale")?, self.positive("edge_length")?);
         if scale.is_some() && length.is_some() {
             return Err(errors::option(
                 self.py(),
@@ -171,31 +174,30 @@ impl<'py> Keywords<'py> {
                 "give one of them",
             ));
         }
-        Ok(Options { scale: scale.or(length.map(f64::recip)), ..self.method()? })
+        let options = Options { scale: scale.or(length.map(f64::recip)), ..self.method()? };
+        options.check().map_err(|e| errors::raise(self.py(), &e, None))?;
+        Ok(options)
     }
 
     /// Takes how a shape is meshed.
     pub fn remesh(&self) -> PyResult<RemeshOptions> {
         let default = RemeshOptions::default();
-        let padding: Option<usize> = self.take("padding")?;
-        if padding.is_some_and(|p| p > MAX_PADDING) {
-            let remedy = format!("give 0 to {MAX_PADDING} layers");
-            return Err(errors::option(self.py(), "padding is too thick", &remedy));
-        }
-        Ok(RemeshOptions {
+        let options = RemeshOptions {
             size: self.size()?,
-            padding: padding.unwrap_or(default.padding),
+            padding: self.take("padding")?.unwrap_or(default.padding),
             surface_only: self.take("surface_only")?.unwrap_or(false),
             max_hausdorff: self.positive("max_hausdorff")?.map_or(default.max_hausdorff, |percent| percent / 100.0),
             simplify: self.method()?,
             ..default
-        })
+        };
+        options.check().map_err(|e| errors::raise(self.py(), &e, None))?;
+        Ok(options)
     }
 
     fn size(&self) -> PyResult<Option<Size>> {
         let hexes = self.take::<usize>("hexes")?.map(Size::Hexes);
-        let length = self.positive("edge_length")?.map(Size::EdgeLength);
-        let scale = self.positive("scale")?.map(Size::Scale);
+        let length = self.take("edge_length")?.map(Size::EdgeLength);
+        let scale = self.take("scale")?.map(Size::Scale);
         let mut given = [hexes, length, scale].into_iter().flatten();
         let size = given.next();
         match given.next() {

@@ -338,7 +338,7 @@ impl PyRemeshed {
     /// What was not possible or not as asked, in plain words.
     #[getter]
     fn notes(&self) -> Vec<String> {
-        self.0.report.simplify.notes.clone()
+        self.0.report.simplify.notes.iter().map(ToString::to_string).collect()
     }
 
     /// What was done and how good it is, as in the command's report.json: that of `Simplified`, and hexes, quads,
@@ -417,10 +417,9 @@ pub fn task(
 ) -> PyResult<impl FnOnce(&Context) -> Result<PyRemeshed, Failure> + Send + 'static> {
     let keywords = Keywords::new(py, "remesh", options)?;
     let source = Source::new(polycube, Some(shape), &keywords)?;
-    let mut options = keywords.remesh()?;
+    let options = keywords.remesh()?;
     keywords.finish()?;
     Ok(move |context: &Context| {
-        source.lock(&mut options.simplify)?;
         let result = run(&source.input(), &options, context).map_err(|e| source.failure(e))?;
         Ok(PyRemeshed::new(result, source))
     })

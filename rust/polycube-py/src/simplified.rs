@@ -6,9 +6,9 @@ use crate::options::Keywords;
 use crate::report::to_dict;
 use crate::structure::{PyCounts, PyStructure};
 use crate::work::{Failure, Listener};
+use polycube::Context;
 use polycube::mesh::Mesh;
-use polycube::simplify::{Input, Options, Simplified, read_structure, simplify as run};
-use polycube::{Context, Error, ErrorKind};
+use polycube::simplify::{Input, Options, Simplified, simplify as run};
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
 use std::sync::{Arc, OnceLock};
@@ -22,8 +22,6 @@ pub struct Source {
     pub shape: Option<Arc<Mesh>>,
     /// Labels of its boundary faces.
     pub labels: Option<Vec<i8>>,
-    /// Boundary faces whose facets must not move.
-    pub locked: Vec<usize>,
 }
 
 impl Source {
@@ -33,7 +31,6 @@ impl Source {
             polycube: Arc::clone(&polycube.0),
             shape: shape.map(|shape| Arc::clone(&shape.0)),
             labels: keywords.labels()?,
-            locked: keywords.locked_faces()?,
         })
     }
 
@@ -47,23 +44,7 @@ impl Source {
         Failure::new(error, &self.polycube)
     }
 
-    /// Adds the facets of the locked faces to those that must not move.
-    pub fn lock(&self, options: &mut Options) -> Result<(), Failure> {
-        if self.locked.is_empty() {
-            return Ok(());
-        }
-        let polycube = read_structure(&self.input(), &options.tolerance).map_err(|e| self.failure(e))?;
-        let faces = polycube.facet_of_face.len();
-        if let Some(face) = self.locked.iter().find(|&&f| f >= faces) {
-            let message = format!("locked_faces names face {face} of {faces}");
-            return Err(Error::new(ErrorKind::Option, message).remedy("give boundary faces from 0 on").into());
-        }
-        options.guides.fix_faces(&polycube, &self.locked);
-        Ok(())
-    }
-
-    fn simplify(self, mut options: Options, context: &Context) -> Result<PySimplified, Failure> {
-        self.lock(&mut options)?;
+    fn simplify(self, options: Options, context: &Context) -> Result<PySimplified, Failure> {
         let result = run(&self.input(), &options, context).map_err(|e| self.failure(e))?;
         Ok(PySimplified::new(result, self))
     }
@@ -185,7 +166,7 @@ impl PySimplified {
     /// What was not possible or not as asked, in plain words.
     #[getter]
     fn notes(&self) -> Vec<String> {
-        self.0.result.report.notes.clone()
+        self.0.result.report.notes.iter().map(ToString::to_string).collect()
     }
 
     /// What was done, as in the command's report.json: counts, rounds, front, bound, seconds, displacement, distortion,
@@ -265,12 +246,14 @@ impl PySimplified {
 ///     objective: only with "best", what it makes small: "blocks_padded" (volumes), "blocks", or "surface_patches"
 ///         (surfaces).
 ///     simplicity: only with "best", from 1, the fewest blocks, to 0, the least displacement.
-///     max_displacement: only with "best", the farthest that a corner may move, in units of the polycube.
+///     max_displacement: only with "best", the farthest that a corner may move, in units of the polycube; 0 where
+///         none shall.
 ///     max_distortion: only with "best", the largest mean angle distortion, 1 or more, of the map from the shape to
 ///         the result.
 ///     locked_faces: with every strategy, numbers of boundary faces whose facets must not move.
 ///     guides: with every strategy, what else to keep: `{"fixed": facets, "together": [facets], "apart": [[facet,
-///         facet]], "symmetry": [{"axis": 0, "at": 0.0}]}`, by the numbers of `structure(polycube)`.
+///         facet]], "symmetry": [{"axis": 0, "at": 0.0}], "fixed_faces": faces, "fixed_labels": labels}`, by the
+///         numbers of `structure(polycube)`.
 ///     steps: how long "best" searches: moves tried per level in each of eight chains.
 ///     proof_nodes: how long it tries to prove that its result cannot be beaten.
 ///     time_limit: seconds; the search then stops, and the result may differ from run to run.

@@ -6,7 +6,7 @@ use crate::error::Result;
 use crate::layout::Counts;
 use crate::mesh::Mesh;
 use crate::remesh::{RemeshOptions, Remeshed, Size, Stages, count_hexes, remesh};
-use crate::simplify::Input;
+use crate::simplify::{Input, Note};
 
 /// A shape meshed twice.
 #[derive(Clone, Debug, PartialEq, serde::Serialize)]
@@ -46,7 +46,7 @@ pub struct Meshing {
     /// Time spent in each stage, in seconds.
     pub seconds: Stages,
     /// What was not possible or not as asked, in plain words.
-    pub notes: Vec<String>,
+    pub notes: Vec<Note>,
 }
 
 /// By how much counts went down, in percent of what they were; negative where they went up.

@@ -76,6 +76,9 @@ pub struct Error {
     pub file: Option<String>,
     /// The element concerned, where there is one.
     pub place: Option<Place>,
+    /// The option that is wrong, by the name of its field; `guides` for all that guides ask for.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub option: Option<&'static str>,
     /// What is wrong, in plain words.
     pub message: String,
     /// What the user can do about it; empty where nothing can be advised.
@@ -93,7 +96,7 @@ fn suffix(remedy: &str) -> String {
 impl Error {
     /// An error of `kind` saying `message`, with no place and no remedy yet.
     pub fn new(kind: ErrorKind, message: impl Into<String>) -> Self {
-        Self { kind, file: None, place: None, message: message.into(), remedy: String::new() }
+        Self { kind, file: None, place: None, option: None, message: message.into(), remedy: String::new() }
     }
 
     /// The same error, naming the element it is about.
@@ -107,6 +110,13 @@ impl Error {
     #[must_use]
     pub fn in_file(mut self, name: impl fmt::Display) -> Self {
         self.file.get_or_insert_with(|| name.to_string());
+        self
+    }
+
+    /// The same error, naming the option it is about by its field.
+    #[must_use]
+    pub(crate) fn in_option(mut self, name: &'static str) -> Self {
+        self.option = Some(name);
         self
     }
 

@@ -36,6 +36,7 @@ pub mod layout;
 pub mod map;
 pub mod mesh;
 pub mod optimise;
+mod range;
 pub mod remesh;
 mod rng;
 pub mod simplify;

@@ -6,6 +6,7 @@ use crate::error::{Error, ErrorKind, Place, Result};
 use crate::layout::{Objective, count};
 use crate::map::morph;
 use crate::mesh::{Mesh, Point};
+use crate::range::Range;
 use crate::structure::{Arrangement, Edge, Overlaps, Polycube, Tolerance, placement_of};
 use std::time::Instant;
 
@@ -13,7 +14,10 @@ mod blame;
 mod corners;
 mod fits;
 mod front;
+mod note;
 mod report;
+#[cfg(test)]
+mod tests;
 mod untangle;
 
 pub(crate) use blame::remedy;
@@ -22,6 +26,7 @@ pub(crate) use corners::Corners;
 pub use fits::LARGEST_COORDINATE;
 pub(crate) use fits::{Misfit, check_fit, check_side};
 pub use front::Located;
+pub use note::{Cause, Note};
 pub use report::{Report, Seconds};
 pub(crate) use untangle::untangle;
 
@@ -44,7 +49,7 @@ pub struct Options {
     /// Lattice steps per unit of the polycube. By default 1 if all levels are integers, else such that a lattice step
     /// is the mean length of the polycube's mesh edges.
     pub scale: Option<f64>,
-    /// Algorithm 1 stops before λ falls below this: 0 for the coarsest result.
+    /// Algorithm 1 stops before λ falls below this, from 0 for the coarsest result to 1 for one round.
     pub lambda_min: f64,
     /// Who solves the integer problems.
     pub solver: SolverKind,
@@ -55,7 +60,7 @@ pub struct Options {
     /// How far the strategy `best` goes on the front between the fewest blocks (1, the default) and the least
     /// displacement (0).
     pub simplicity: Option<f64>,
-    /// The farthest that the strategy `best` may move a corner, in units of the polycube.
+    /// The farthest that the strategy `best` may move a corner, in units of the polycube; 0 where none shall move.
     pub max_displacement: Option<f64>,
     /// The largest mean angle distortion ([`Distortion::angle`](crate::map::Distortion::angle), at least 1) that the map from the shape to the result of the
     /// strategy `best` may have; of the front, the point with the fewest blocks that keeps it is taken.
@@ -69,39 +74,28 @@ pub struct Options {
 }
 
 impl Options {
-    /// Refuses what is out of its range, before anything is done.
+    /// Refuses what is out of its range. [`simplify`] does so before anything else.
     ///
     /// # Errors
-    /// [`ErrorKind::Option`].
-    pub(crate) fn check(&self) -> Result<()> {
-        let positive = |x: &f64| x.is_finite() && *x > 0.0;
-        if let Some(scale) = self.scale.filter(|x| !positive(x)) {
-            return Err(Error::new(ErrorKind::Option, format!("the scale {scale} is not a positive number")));
-        }
-        if let Some(simplicity) = self.simplicity.filter(|x| !(0.0..=1.0).contains(x)) {
-            return Err(no_simplicity(simplicity));
-        }
-        if let Some(limit) = self.max_displacement.filter(|x| x.is_nan() || *x < 0.0) {
-            return Err(Error::new(ErrorKind::Option, format!("{limit} is no bound for a displacement"))
-                .remedy("give a number of 0 or more, in units of the polycube"));
-        }
-        if let Some(limit) = self.max_distortion.filter(|x| x.is_nan() || *x < 1.0) {
-            return Err(Error::new(ErrorKind::Option, format!("{limit} is no bound for a distortion"))
-                .remedy("give a number of 1 or more; 1 is a similarity"));
-        }
-        if self.lambda_min.is_nan() {
-            return Err(Error::new(ErrorKind::Option, "lambda_min is not a number").remedy("give a number from 0 to 1"));
-        }
-        Ok(())
+    /// [`ErrorKind::Option`], which names the field.
+    pub fn check(&self) -> Result<()> {
+        let given = |option, range: Range, x: Option<f64>| x.map_or(Ok(()), |x| range.check(option, x));
+        given("scale", Range::Positive, self.scale)?;
+        Range::Within(0.0, 1.0).check("lambda_min", self.lambda_min)?;
+        given("simplicity", Range::Within(0.0, 1.0), self.simplicity)?;
+        given("max_displacement", Range::AtLeast(0.0), self.max_displacement)?;
+        given("max_distortion", Range::AtLeast(1.0), self.max_distortion)?;
+        self.tolerance.check()
     }
 
-    fn alignment(&self, scale: f64, mesh: &Mesh) -> align::Options {
+    /// The options of the alignment on a lattice with `scale` steps per unit.
+    fn alignment(&self, scale: f64) -> align::Options {
         align::Options {
             strategy: self.strategy,
             scale,
             lambda_min: self.lambda_min,
             solver: self.solver,
-            objective: self.objective.unwrap_or_else(|| default_objective(mesh)),
+            objective: self.objective.unwrap_or_default(),
             effort: self.effort,
             simplicity: self.simplicity.unwrap_or(1.0),
             max_displacement: self.max_displacement,
@@ -121,7 +115,7 @@ pub struct Simplified {
     pub levels: Vec<i64>,
     /// What was done.
     pub report: Report,
-    /// How it was asked to be done.
+    /// How it was asked to be done, with the objective that was chosen and the guides by their facets.
     pub options: Options,
 }
 
@@ -130,8 +124,11 @@ pub struct Simplified {
 /// # Errors
 /// The first violation, with the number of others, as [`ErrorKind::Mesh`] or [`ErrorKind::Polycube`];
 /// [`ErrorKind::Mismatch`] if shape or labels do not fit; [`ErrorKind::Option`] for a number that is no label;
-/// [`ErrorKind::Mesh`] for a shape that is mirrored and for coordinates beyond [`LARGEST_COORDINATE`].
+/// [`ErrorKind::Mesh`] for a shape that is mirrored and for coordinates beyond [`LARGEST_COORDINATE`];
+/// [`ErrorKind::Option`] for a
+/// tolerance out of its range.
 pub fn read_structure(input: &Input, tolerance: &Tolerance) -> Result<Polycube> {
+    tolerance.check()?;
     read_in_steps(input, tolerance, &Context::default())
 }
 
@@ -151,11 +148,6 @@ fn read_in_steps(input: &Input, tolerance: &Tolerance, context: &Context) -> Res
     Ok(polycube)
 }
 
-fn no_simplicity(simplicity: f64) -> Error {
-    Error::new(ErrorKind::Option, format!("{simplicity} is no simplicity"))
-        .remedy("give a number from 0, the least displacement, to 1, the fewest blocks")
-}
-
 /// Simplifies a polycube (paper, Algorithm 1): finds its structure, aligns its corners on the integer
 /// lattice, and morphs the mesh onto the result.
 ///
@@ -167,20 +159,19 @@ pub fn simplify(input: &Input, options: &Options, context: &Context) -> Result<S
     let polycube = read_in_steps(input, &options.tolerance, &context.stage("structure", 0.0, 0.1))?;
     let scale = options.scale.unwrap_or_else(|| default_scale(&polycube, input.polycube));
     let structured = start.elapsed().as_secs_f64();
-    let settings = options.alignment(scale, input.polycube);
+    let objective = options.objective.unwrap_or_else(|| default_objective(input.polycube));
+    let guides = options.guides.by_facets(&polycube)?;
+    let options = Options { objective: Some(objective), guides, ..options.clone() };
     let aligning = context.stage("align", 0.1, 0.5);
-    let alignment = align::align(&polycube.structure, &polycube.placement, &settings, &aligning)?;
+    let alignment = align::align(&polycube.structure, &polycube.placement, &options.alignment(scale), &aligning)?;
     let aligned = start.elapsed().as_secs_f64();
     let mut report = Report::new(&polycube, &alignment, options.strategy, scale);
     if options.strategy == Strategy::Best && alignment.bound.is_none() {
-        let note = "the result is that of Algorithm 1: there are more than 1022 levels on every axis, too many to search, or \
-                    fewer patches would have meant more blocks";
-        report.notes.push(note.into());
+        report.notes.push(Note::Unsearched);
     }
-    report.note_displacement(options);
+    report.note_displacement(&options, Cause::Search);
     let morphing = context.stage("morph", 0.5, 1.0);
-    let asked = Options { objective: Some(settings.objective), ..options.clone() };
-    let result = finish(input, polycube, alignment.levels, report, &asked, &morphing)?;
+    let result = finish(input, polycube, alignment.levels, report, &options, &morphing)?;
     let mut result = result.within_distortion(input, &morphing)?;
     let total = start.elapsed().as_secs_f64();
     let stages =
@@ -204,7 +195,8 @@ impl Simplified {
     }
 
     /// The same result at another scale (lattice steps per unit of the input): the same block structure, on a finer or
-    /// coarser lattice. `input` must be what was simplified. Much faster than [`simplify`]: the order of the levels is known.
+    /// coarser lattice. Its notes name limits that are not kept at this scale, and what was said of the search stays.
+    /// `input` must be what was simplified. Much faster than [`simplify`]: the order of the levels is known.
     ///
     /// # Errors
     /// [`ErrorKind::Mismatch`] if `input` has other cells; those of [`align::rescale`]; [`ErrorKind::Cancelled`].
@@ -212,9 +204,7 @@ impl Simplified {
         self.check_input(input)?;
         let start = Instant::now();
         let Self { input: polycube, report: old, .. } = self;
-        let options = align::Options { strategy: old.strategy, ..self.options.alignment(scale, input.polycube) };
-        let aligning = context.stage("align", 0.0, 0.2);
-        let levels = align::rescale(&polycube.structure, &polycube.placement, &self.levels, &options, &aligning)?;
+        let levels = self.levels_at(&polycube.placement, scale, &context.stage("align", 0.0, 0.2))?;
         let placement = placement_of(&levels);
         let arrangement = Arrangement::new(&polycube.structure, &placement);
         let broken = arrangement.conflicts();
@@ -222,12 +212,30 @@ impl Simplified {
         let (rounds, front, chosen, bound) = (old.rounds.clone(), old.front.clone(), old.chosen, old.bound);
         let alignment = Alignment { levels, before: old.before, after, rounds, broken, front, chosen, bound };
         let aligned = start.elapsed().as_secs_f64();
-        let report = Report::new(polycube, &alignment, old.strategy, scale);
+        let mut report = Report::new(polycube, &alignment, old.strategy, scale);
+        report.notes.extend(old.notes.iter().filter(|n| n.is_of_order()).cloned());
+        report.note_displacement(&self.options, old.cause_of_displacement().unwrap_or(Cause::Scale));
         let morphing = context.stage("morph", 0.2, 1.0);
         let mut result = finish(input, polycube.clone(), alignment.levels, report, &self.options, &morphing)?;
+        result.report.note_distortion(&self.options, old.cause_of_distortion().unwrap_or(Cause::Scale));
         let total = start.elapsed().as_secs_f64();
         result.report.seconds = Seconds { align: aligned, morph: total - aligned, total, ..old.seconds };
         Ok(result)
+    }
+}
+
+impl Simplified {
+    /// The levels in the same order as near as possible to `targets` times `scale`; where the order does not matter,
+    /// `targets` rounded.
+    ///
+    /// # Errors
+    /// Those of [`align::rescale`].
+    pub(crate) fn levels_at(&self, targets: &[f64], scale: f64, context: &Context) -> Result<Vec<i64>> {
+        let (structure, guides) = (&self.input.structure, &self.options.guides);
+        if self.report.strategy == Strategy::Naive {
+            return align::round(structure, targets, scale, guides);
+        }
+        align::rescale(structure, targets, &self.levels, scale, guides, context)
     }
 }
 

@@ -1,6 +1,6 @@
 //! Everything that is wrong with a polycube and its shape, for people and programs.
 
-use crate::error::{Error, Place};
+use crate::error::{Error, Place, Result};
 use crate::map::flipped;
 use crate::mesh::{Face, Mesh, Point};
 use crate::simplify::{Input, Misfit, check_fit, check_side, remedy};
@@ -35,7 +35,8 @@ pub struct Finding {
 }
 
 /// Lists every violation of the first rule of [`Violation`] that does not hold, then all elements that are turned over.
-/// Nothing for a valid polycube and a shape that goes with it; never fails, whatever the mesh. O(n log n) for n cells.
+/// Nothing for a valid polycube and a shape that goes with it; whatever the mesh, it can be judged.
+/// O(n log n) for n cells.
 ///
 /// ```
 /// use polycube::Input;
@@ -46,17 +47,21 @@ pub struct Finding {
 ///
 /// let (cube, shape) = example(Example::Ring, 1, CellKind::Triangles)?;
 /// let input = Input { polycube: &cube, shape: Some(&shape), labels: None };
-/// assert!(validate(&input, &Tolerance::default()).is_empty());
+/// assert!(validate(&input, &Tolerance::default())?.is_empty());
 ///
 /// // The wrong way round, as files are easily given: the shape is no polycube.
 /// let input = Input { polycube: &shape, shape: Some(&cube), labels: None };
-/// for finding in validate(&input, &Tolerance::default()) {
+/// for finding in validate(&input, &Tolerance::default())? {
 ///     println!("{:?} at {:?}: {} ({})", finding.element, finding.at, finding.message, finding.remedy);
 /// }
-/// # assert!(!validate(&input, &Tolerance::default()).is_empty());
+/// # assert!(!validate(&input, &Tolerance::default())?.is_empty());
 /// # Ok::<(), polycube::Error>(())
 /// ```
-pub fn validate(input: &Input, tolerance: &Tolerance) -> Vec<Finding> {
+///
+/// # Errors
+/// [`ErrorKind::Option`](crate::ErrorKind::Option) for a tolerance out of its range.
+pub fn validate(input: &Input, tolerance: &Tolerance) -> Result<Vec<Finding>> {
+    tolerance.check()?;
     let misfit = check_fit(input).err();
     let of_polycube = misfit.as_ref().is_some_and(|m| !m.in_shape);
     let (mut findings, polycube) = if of_polycube { (Vec::new(), None) } else { polycube(input, tolerance) };
@@ -70,7 +75,7 @@ pub fn validate(input: &Input, tolerance: &Tolerance) -> Vec<Finding> {
         let cells = flipped(shape, &[]).map(|f| f.cells).unwrap_or_default();
         findings.extend(Middles::new(shape).findings(inverted(&cells), Subject::Shape));
     }
-    findings
+    Ok(findings)
 }
 
 /// What keeps the parts of `input` from going together.
@@ -78,7 +83,7 @@ fn misplaced(misfit: Misfit, input: &Input) -> Finding {
     let Misfit { rule, in_shape, error } = misfit;
     let mesh = if in_shape { Subject::Shape } else { Subject::Polycube };
     let own = if in_shape { input.shape.unwrap_or(input.polycube) } else { input.polycube };
-    let Error { place: element, message, remedy, .. } = error;
+    let Error { place: element, message, remedy, .. } = *error;
     // A place that is not a finite number is none.
     let at = element.and_then(|place| own.middle(place)).filter(|at| at.iter().all(|x| x.is_finite()));
     Finding { rule, mesh, element, at, message, remedy }
@@ -190,7 +195,7 @@ mod tests {
         let told = |shape: &Mesh| {
             let input = Input { polycube: &polycube, shape: Some(shape), labels: None };
             let error = simplify(&input, &Options::default(), &Context::default()).unwrap_err();
-            let found = validate(&input, &Tolerance::default());
+            let found = validate(&input, &Tolerance::default()).unwrap();
             assert_eq!((found[0].mesh, &found[0].message), (Subject::Shape, &error.message));
             (found[0].rule, error.kind, error.place)
         };

@@ -197,7 +197,7 @@ fn a_bound_of_lambda_trades_blocks_for_fidelity() {
     let mut blocks = [0; 4];
     for seed in 0..cases(150) {
         let mesh = sample(seed, CellKind::Quads);
-        for (sum, lambda_min) in blocks.iter_mut().zip([2.0, 1.0, 0.125, 0.0]) {
+        for (sum, lambda_min) in blocks.iter_mut().zip([1.0, 0.5, 0.125, 0.0]) {
             let result = checked(&mesh, &Options { lambda_min, ..paper() }, &format!("seed {seed}"));
             *sum += result.report.after.map_or(0, |c| c.blocks_padded);
             assert!(result.report.rounds.iter().all(|r| r.lambda >= lambda_min), "seed {seed}");

@@ -6,6 +6,7 @@ use common::{cases, coarse, dense, read, simplify};
 use polycube::align::{Effort, Guides, Strategy, Symmetry};
 use polycube::generate::{Cuboid, Example, Voxels, example, random_polycube};
 use polycube::mesh::{CellKind, Mesh};
+use polycube::simplify::{Cause, Note};
 use polycube::structure::Polycube;
 use polycube::{Context, Error, ErrorKind, Input, Options, Place, Simplified};
 use proptest::prelude::*;
@@ -109,15 +110,26 @@ fn no_facet_moves_when_all_are_fixed() {
 }
 
 #[test]
-fn faces_lock_their_facets() {
+fn faces_and_labels_lock_their_facets() {
     let mesh = spikes();
     let polycube = read(&mesh);
-    let mut guides = Guides::default();
-    guides.fix_faces(&polycube, &[0, 1, 5, 1_000_000]);
-    let mut facets: Vec<usize> = [0, 1, 5].iter().map(|&f: &usize| polycube.facet_of_face[f] as usize).collect();
-    facets.sort_unstable();
-    facets.dedup();
-    assert_eq!(guides.fixed, facets);
+    let asked = Guides { fixed: vec![2], fixed_faces: vec![0, 1, 5], fixed_labels: vec![5], ..Guides::default() };
+    for strategy in VALID {
+        let result = simplify(&mesh, &options(strategy, asked.clone())).expect("the input fits");
+        let named = [0, 1, 5].map(|f: usize| polycube.facet_of_face[f] as usize);
+        let facets = polycube.structure.facets.iter().enumerate();
+        let locked: Vec<usize> =
+            facets.filter(|(i, f)| *i == 2 || named.contains(i) || f.label.index() == 5).map(|(i, _)| i).collect();
+        let mut fixed = result.options.guides.fixed.clone();
+        fixed.sort_unstable();
+        fixed.dedup();
+        assert_eq!(fixed, locked);
+        check(&result, &result.options.guides, "locked").expect("the guides hold");
+    }
+    let face = refused(&mesh, Guides { fixed_faces: vec![0, 1_000_000], ..Guides::default() });
+    assert_eq!((face.kind, face.place, face.option), (ErrorKind::Option, Some(Place::Face(1_000_000)), Some("guides")));
+    let label = refused(&mesh, Guides { fixed_labels: vec![6], ..Guides::default() });
+    assert_eq!((label.kind, label.option), (ErrorKind::Option, Some("guides")));
 }
 
 #[test]
@@ -341,7 +353,11 @@ fn the_distortion_stays_within_its_limit() {
     let points = hopeless.pareto(&input, &Context::default()).expect("a front");
     let least = points.iter().map(angle).fold(f64::INFINITY, f64::min);
     assert!(least > 1.0 && (angle(&hopeless) - least).abs() < 1e-12);
-    assert!(hopeless.report.notes.iter().any(|n| n.contains("distortion")), "{:?}", hopeless.report.notes);
+    assert!(
+        hopeless.report.notes.iter().any(|n| matches!(n, Note::Distortion { cause: Cause::Search, .. })),
+        "{:?}",
+        hopeless.report.notes
+    );
 }
 
 #[test]
@@ -349,7 +365,8 @@ fn guides_read_from_json_and_refuse_what_they_do_not_know() {
     let text = r#"{"fixed": [3], "together": [[0, 4]], "apart": [[1, 2]], "symmetry": [{"axis": 0, "at": 2.5}]}"#;
     let guides: Guides = serde_json::from_str(text).expect("guides");
     let symmetry = vec![Symmetry { axis: 0, at: 2.5 }];
-    assert_eq!(guides, Guides { fixed: vec![3], together: vec![vec![0, 4]], apart: vec![[1, 2]], symmetry });
+    let (together, apart) = (vec![vec![0, 4]], vec![[1, 2]]);
+    assert_eq!(guides, Guides { fixed: vec![3], together, apart, symmetry, ..Guides::default() });
     assert!(serde_json::from_str::<Guides>(r#"{"fixd": [3]}"#).is_err());
     assert!(serde_json::from_str::<Guides>("{}").is_ok_and(|g| g.is_empty()));
 }
@@ -374,7 +391,7 @@ proptest! {
         together.retain(|&f| axis_of(&polycube, f) == 2);
         let apart: Vec<[usize; 2]> = apart.iter().map(|p| p.map(|f| f % count))
             .filter(|&[a, b]| axis_of(&polycube, a) == axis_of(&polycube, b) && level(a) != level(b)).collect();
-        let guides = Guides { fixed, together: vec![together], apart, symmetry: Vec::new() };
+        let guides = Guides { fixed, together: vec![together], apart, ..Guides::default() };
         let strategy = if best { Strategy::Best } else { Strategy::Paper };
         let run = || simplify(&mesh, &options(strategy, guides.clone()));
         match (run(), run()) {

@@ -75,7 +75,7 @@ fn check(args: &Args) -> Result<Vec<Finding>> {
         _ => None,
     };
     let input = Input { polycube: &mesh, shape: shape.as_ref(), labels: labels.as_deref() };
-    Ok(validate(&input, &args.mesh.tolerance.get()))
+    Ok(validate(&input, &args.mesh.tolerance.get())?)
 }
 
 /// The finding that an error of reading `mesh` stands for.

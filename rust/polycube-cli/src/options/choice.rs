@@ -1,6 +1,6 @@
 //! Which result of the search is taken.
 
-use super::number::{at_least_one, fraction, positive};
+use super::number::{at_least_one, fraction, zero_or_more};
 use super::strategy::ObjectiveArg;
 use clap::Args;
 use polycube::simplify::Options;
@@ -17,8 +17,8 @@ pub struct ChoiceArgs {
     #[arg(long, value_name = "S", value_parser = fraction)]
     pub simplicity: Option<f64>,
 
-    /// The farthest that `best` may move a corner, in units of the polycube [default: no limit]
-    #[arg(long, value_name = "D", value_parser = positive)]
+    /// The farthest that `best` may move a corner, in units of the polycube; 0 where none shall [default: no limit]
+    #[arg(long, value_name = "D", value_parser = zero_or_more)]
     pub max_displacement: Option<f64>,
 
     /// The largest mean angle distortion of the map from the shape that a result of `best` may have, 1 or more

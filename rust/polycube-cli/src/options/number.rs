@@ -48,6 +48,12 @@ pub fn at_least_one(text: &str) -> Result<f64, String> {
     found.ok_or_else(|| "expected a number of 1 or more".to_owned())
 }
 
+/// A number of 0 or more.
+pub fn zero_or_more(text: &str) -> Result<f64, String> {
+    let found = text.parse().ok().filter(|x: &f64| x.is_finite() && *x >= 0.0);
+    found.ok_or_else(|| "expected a number of 0 or more".to_owned())
+}
+
 /// A number above 0.
 pub fn positive(text: &str) -> Result<f64, String> {
     let found = text.parse().ok().filter(|x: &f64| x.is_normal() && *x > 0.0);

@@ -6,9 +6,8 @@ use crate::failure::Result;
 use crate::input::guides;
 use clap::{Args, ValueHint};
 use polycube::align::{Effort, Guides};
-use polycube::simplify::{Input, Options};
-use polycube::structure::Tolerance;
-use std::path::{Path, PathBuf};
+use polycube::simplify::Options;
+use std::path::PathBuf;
 use std::time::Duration;
 
 /// How long and how it is searched, and what must stay.
@@ -68,9 +67,9 @@ impl SearchArgs {
         Options { lambda_min: self.rounds.lambda_min, solver: self.solver.0, effort, ..options }
     }
 
-    /// Reads the guides for `input`, which came from the file `of`; none if none were asked for.
-    pub fn guides(&self, of: &Path, input: &Input, tolerance: &Tolerance) -> Result<Guides> {
-        self.guides.as_deref().map_or_else(|| Ok(Guides::default()), |file| guides::read(file, of, input, tolerance))
+    /// Reads the guides; none if none were asked for.
+    pub fn guides(&self) -> Result<Guides> {
+        self.guides.as_deref().map_or_else(|| Ok(Guides::default()), guides::read)
     }
 }
 

@@ -71,6 +71,7 @@ fn guides_that_cannot_be_say_why() {
     for (text, code, words) in [
         ("{\"fixed\": [999]}", 2, ["error: guides.json: facet 999: ", "from 0 to"]),
         ("{\"fixed_labels\": [6]}", 2, ["error: guides.json: there is no label 6", "from 0 to 5"]),
+        ("{\"fixed_faces\": [99999]}", 2, ["error: guides.json: face 99999: ", "from 0 on"]),
         ("{\n\"fixd\": [1]}", 1, ["error: guides.json: line 2: ", "simplify --help"]),
         ("{\"symmetry\": [{\"axis\": 0, \"at\": 123.0}]}", 2, ["guides.json: ", "X = 123"]),
     ] {

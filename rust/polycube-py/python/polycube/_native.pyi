@@ -58,6 +58,8 @@ class _Symmetry(TypedDict):
 
 class _Guides(TypedDict, total=False):
     fixed: Sequence[int]
+    fixed_faces: Sequence[int]
+    fixed_labels: Sequence[int]
     together: Sequence[Sequence[int]]
     apart: Sequence[Sequence[int]]
     symmetry: Sequence[_Symmetry]

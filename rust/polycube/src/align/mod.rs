@@ -19,6 +19,7 @@ pub mod solve;
 mod unit;
 
 pub use guides::{Guides, Symmetry};
+pub(crate) use options::keeps;
 pub use options::{Options, SolverKind, Strategy};
 pub use paper::{Round, neighbours};
 pub use search::Effort;
@@ -26,6 +27,7 @@ pub use search::Effort;
 use crate::context::Context;
 use crate::error::{Error, ErrorKind, Result};
 use crate::layout::{Counts, count};
+use crate::range::Range;
 use crate::structure::{Arrangement, Conflict, Placement, Structure, placement_of};
 use guides::{Guided, guided_start, is_valid};
 use judge::Judge;
@@ -205,10 +207,8 @@ impl TradeOff {
     }
 }
 
-/// The alignment at another scale: the order of `levels`, which [`align`] found at any scale, as near as possible to `input`
-/// at the scale of `options`. Where the order does not matter ([`Strategy::Naive`]), what [`align`] itself would give.
-///
-/// Takes no search, and no more than sorting. λ is not used.
+/// The alignment at another scale: the order of `levels`, which [`align`] found at any scale, as near as possible to
+/// `input` on a lattice with `scale` steps per unit. Takes no search, and no more than sorting.
 ///
 /// # Errors
 /// [`ErrorKind::Option`] for a scale that is not positive or too large for the lattice, [`ErrorKind::Infeasible`] if what the guides
@@ -217,27 +217,34 @@ pub fn rescale(
     structure: &Structure,
     input: &[f64],
     levels: &[i64],
-    options: &Options,
+    scale: f64,
+    guides: &Guides,
     context: &Context,
 ) -> Result<Vec<i64>> {
-    let targets = scaled(input, options.scale)?;
+    let targets = scaled(input, scale)?;
     context.tick(0.0)?;
-    let guided = Guided::new(structure, input, &options.guides, options.scale)?;
-    if options.strategy == Strategy::Naive {
-        return guided.rounded(structure, &targets);
-    }
+    let guided = Guided::new(structure, input, guides, scale)?;
     let order = placement_of(levels);
     place_in_order(structure, &Ranks::new(structure, &order), &targets, &guided)
 }
 
+/// The levels rounded to a lattice with `scale` steps per unit, as [`Strategy::Naive`] does: their order may change.
+///
+/// # Errors
+/// [`ErrorKind::Option`] for a scale that is not positive or too large for the lattice, [`ErrorKind::Infeasible`] if
+/// rounding brings together what the guides keep apart.
+pub fn round(structure: &Structure, input: &[f64], scale: f64, guides: &Guides) -> Result<Vec<i64>> {
+    let targets = scaled(input, scale)?;
+    Guided::new(structure, input, guides, scale)?.rounded(structure, &targets)
+}
+
 fn scaled(input: &[f64], scale: f64) -> Result<Placement> {
+    Range::Positive.check("scale", scale)?;
     let targets: Placement = input.iter().map(|x| x * scale).collect();
     let bound = Problem::MAX_LEVEL as f64 / 2.0;
-    if !(scale.is_finite() && scale > 0.0) {
-        return Err(Error::new(ErrorKind::Option, format!("the scale {scale} is not a positive number")));
-    }
     if targets.iter().any(|x| x.abs() > bound) {
         return Err(Error::new(ErrorKind::Option, format!("with scale {scale} the lattice exceeds ±{bound} steps"))
+            .in_option("scale")
             .remedy("use a smaller scale or a longer edge length, or move the polycube to the origin"));
     }
     Ok(targets)

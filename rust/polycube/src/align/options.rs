@@ -68,6 +68,12 @@ impl Default for Options {
     }
 }
 
+/// Whether corners that move by `moved` keep within `limit`, but for what rounding to `scale` steps per unit adds to
+/// either.
+pub(crate) fn keeps(moved: f64, limit: f64, scale: f64) -> bool {
+    (moved - limit) * scale <= 1e-9
+}
+
 impl SolverKind {
     /// A solver of this kind.
     pub fn solver(self) -> Box<dyn Solver> {

@@ -1,8 +1,9 @@
 //! How a shape is meshed.
 
 use crate::align::Strategy;
-use crate::error::{Error, ErrorKind, Result};
+use crate::error::Result;
 use crate::optimise::Settings;
+use crate::range::Range;
 use crate::remesh::lattice::Size;
 use crate::remesh::mesher::check_padding;
 use crate::simplify;
@@ -42,15 +43,12 @@ impl Default for RemeshOptions {
 }
 
 impl RemeshOptions {
-    /// Refuses what is out of its range, before anything is done.
+    /// Refuses what is out of its range. [`remesh`](super::remesh()) does so before anything else.
     ///
     /// # Errors
-    /// [`ErrorKind::Option`].
-    pub(crate) fn check(&self) -> Result<()> {
-        if self.max_hausdorff.is_nan() || self.max_hausdorff <= 0.0 {
-            let message = format!("{} is no bound for a distance", self.max_hausdorff);
-            return Err(Error::new(ErrorKind::Option, message).remedy("give a positive number"));
-        }
+    /// [`ErrorKind::Option`](crate::ErrorKind::Option), which names the field.
+    pub fn check(&self) -> Result<()> {
+        Range::Positive.check("max_hausdorff", self.max_hausdorff)?;
         self.size.map_or(Ok(()), Size::check)?;
         check_padding(self.padding)?;
         self.simplify.check()
@@ -60,6 +58,6 @@ impl RemeshOptions {
     /// facets have their places.
     pub(crate) fn has_flexible_levels(&self) -> bool {
         let sized = matches!(self.size, Some(Size::Hexes(_) | Size::EdgeLength(_)));
-        sized && self.simplify.strategy != Strategy::Naive && self.simplify.guides == Default::default()
+        sized && self.simplify.strategy != Strategy::Naive && self.simplify.guides.is_empty()
     }
 }

@@ -2,14 +2,14 @@
 
 use crate::context::Context;
 use crate::error::Result;
-use crate::mesh::Mesh;
+use crate::mesh::{CellKind, Mesh};
 use crate::optimise::{BARS, cell_qualities, statistics};
 use crate::remesh::base_complex::base_complex;
 use crate::remesh::hausdorff::hausdorff;
 use crate::remesh::meshed::Meshed;
 use crate::remesh::mesher::Hexes;
 use crate::remesh::options::RemeshOptions;
-use crate::simplify::{self, Simplified};
+use crate::simplify::{self, Note, Simplified};
 
 /// More cells than this are not advised.
 const MOST_ADVISED: f64 = 1e7;
@@ -136,11 +136,7 @@ pub(crate) fn measure(
         seconds,
     };
     if meshed.released > 0 {
-        let n = meshed.released;
-        let note = format!(
-            "{n} vertices left polycube corners and edges for the surface around, which made inverted or poor hexahedra better"
-        );
-        report.simplify.notes.push(note);
+        report.simplify.notes.push(Note::Released(meshed.released));
     }
     let faults = report.faults();
     report.simplify.notes.extend(faults);
@@ -165,34 +161,27 @@ impl RemeshReport {
 
     /// How many cells bring the distance within the bound, if it shrinks in proportion to the length of edges: details do, smooth shapes
     /// are faster. Nothing where the distance has other causes or so many cells would be out of reach.
-    fn near_enough(&self) -> Option<String> {
+    fn near_enough(&self) -> Option<(f64, CellKind)> {
         let finer = self.hausdorff_percent / (100.0 * self.max_hausdorff);
         let (cells, count) = match self.hexes {
-            0 => ("quadrilaterals", self.quads as f64 * finer * finer),
-            n => ("hexahedra", n as f64 * finer * finer * finer),
+            0 => (CellKind::Quads, self.quads as f64 * finer * finer),
+            n => (CellKind::Hexahedra, n as f64 * finer * finer * finer),
         };
         let helps = self.inverted == 0 && self.folded == 0 && count <= MOST_ADVISED;
-        helps.then(|| format!(": {} {cells} are likely to be near enough", rounded(count)))
+        helps.then(|| (rounded(count), cells))
     }
 
-    /// What is not as good as asked for, in plain words.
-    pub fn faults(&self) -> Vec<String> {
+    /// What is not as good as asked for.
+    pub fn faults(&self) -> Vec<Note> {
         let mut faults = Vec::new();
         if self.inverted > 0 {
-            faults.push(format!("{} hexahedra are inverted: those whose scaled_jacobian is 0 or less", self.inverted));
+            faults.push(Note::Inverted(self.inverted));
         }
         if self.folded > 0 {
-            faults.push(format!(
-                "the map of the surface is folded, and quadrilaterals lie wrong there ({} are inverted): lower the simplicity",
-                self.inverted_quads
-            ));
+            faults.push(Note::Folded(self.inverted_quads));
         }
         if !self.within_hausdorff {
-            faults.push(format!(
-                "the Hausdorff distance is {:.3} % of the diagonal, more than asked for{}",
-                self.hausdorff_percent,
-                self.near_enough().unwrap_or_default()
-            ));
+            faults.push(Note::Far { percent: self.hausdorff_percent, enough: self.near_enough() });
         }
         faults
     }

@@ -1,11 +1,12 @@
 //! Moving along the front between few blocks and little displacement, without searching again.
 
 use super::report::max_displacement;
-use super::{Input, Options, Report, Seconds, Simplified, finish, no_simplicity};
+use super::{Cause, Input, Report, Seconds, Simplified, finish};
 use crate::align::{self, Alignment, Strategy, TradeOff};
 use crate::context::Context;
 use crate::error::{Error, ErrorKind, Result};
 use crate::layout::{Counts, count};
+use crate::range::Range;
 use crate::structure::{Arrangement, placement_of};
 use std::time::Instant;
 
@@ -26,7 +27,8 @@ impl Simplified {
     /// Another point of the same front, from 1, the fewest blocks, to 0, the least displacement: for a slider. Nothing is
     /// searched; it takes the time of placing the levels and of the morph. `input` must be what was simplified.
     ///
-    /// It is what [`simplify`](super::simplify) would give with this simplicity and no limits on displacement and distortion.
+    /// It is what [`simplify`](super::simplify) would give with this simplicity and no limits on displacement and
+    /// distortion; its notes name those that it does not keep.
     ///
     /// ```
     /// use polycube::generate::{Example, example};
@@ -51,7 +53,7 @@ impl Simplified {
         let start = Instant::now();
         let located = self.locate(simplicity, context)?;
         self.check_input(input)?;
-        let mut moved = self.moved(input, located, context)?;
+        let mut moved = self.chosen(input, located, context)?;
         let total = start.elapsed().as_secs_f64();
         moved.report.seconds = Seconds { morph: total, total, ..Seconds::default() };
         Ok(moved)
@@ -62,9 +64,7 @@ impl Simplified {
     /// # Errors
     /// Those of [`at`](Self::at).
     pub fn locate(&self, simplicity: f64, context: &Context) -> Result<Located> {
-        if !(0.0..=1.0).contains(&simplicity) {
-            return Err(no_simplicity(simplicity));
-        }
+        Range::Within(0.0, 1.0).check("simplicity", simplicity)?;
         if self.report.front.is_empty() {
             return Err(Error::new(ErrorKind::Option, "there is no front to move along")
                 .remedy("simplify with the strategy `best` first"));
@@ -84,7 +84,7 @@ impl Simplified {
         }
         let point = |index: usize| {
             let own = context.stage("front", index as f64 / count as f64, (index + 1) as f64 / count as f64);
-            self.moved(input, self.locate_index(index, &own)?, &own)
+            self.chosen(input, self.locate_index(index, &own)?, &own)
         };
         (0..count).map(point).collect()
     }
@@ -106,11 +106,8 @@ impl Simplified {
                 best = next;
             }
         }
-        let least = best.angle();
-        if least > limit && best.report.valid {
-            let note = format!("no result found has a mean angle distortion of {limit} or less; this one has {least}");
-            best.report.notes.push(note);
-        }
+        let options = &best.options;
+        best.report.note_distortion(options, Cause::Search);
         Ok(best)
     }
 
@@ -127,23 +124,12 @@ impl Simplified {
     fn locate_index(&self, index: usize, context: &Context) -> Result<Located> {
         let Self { input: polycube, report, .. } = self;
         let (structure, placement) = (&polycube.structure, &polycube.placement);
-        let settings = self.settings();
+        let settings = self.options.alignment(report.scale);
         let levels = align::place(structure, placement, report.before, &report.front[index], &settings, context)?;
         let at = placement_of(&levels);
         let counts = count(&Arrangement::new(structure, &at));
         let max_displacement = max_displacement(polycube, &levels, report.scale);
         Ok(Located { index, levels, counts, max_displacement })
-    }
-
-    fn settings(&self) -> align::Options {
-        let Options { solver, guides, objective, .. } = self.options.clone();
-        align::Options {
-            scale: self.report.scale,
-            solver,
-            guides,
-            objective: objective.unwrap_or_default(),
-            ..align::Options::default()
-        }
     }
 
     fn moved(&self, input: &Input, located: Located, context: &Context) -> Result<Self> {
@@ -158,7 +144,15 @@ impl Simplified {
             chosen: Some(located.index),
             bound: old.bound,
         };
-        let report = Report::new(polycube, &alignment, Strategy::Best, old.scale);
+        let mut report = Report::new(polycube, &alignment, Strategy::Best, old.scale);
+        report.note_displacement(options, old.cause_of_displacement().unwrap_or(Cause::Choice));
         finish(input, polycube.clone(), alignment.levels, report, options, context)
+    }
+
+    /// The point of the front that was asked for, with notes on the limits that it does not keep.
+    fn chosen(&self, input: &Input, located: Located, context: &Context) -> Result<Self> {
+        let mut result = self.moved(input, located, context)?;
+        result.report.note_distortion(&self.options, self.report.cause_of_distortion().unwrap_or(Cause::Choice));
+        Ok(result)
     }
 }

@@ -1,7 +1,7 @@
 //! What was done, for people and programs.
 
-use super::{Input, Options};
-use crate::align::{Alignment, LowerBound, Round, Strategy, TradeOff};
+use super::{Cause, Input, Note, Options};
+use crate::align::{Alignment, LowerBound, Round, Strategy, TradeOff, keeps};
 use crate::context::Context;
 use crate::error::Result;
 use crate::layout::Counts;
@@ -43,8 +43,8 @@ pub struct Report {
     /// Distortion of the map from the shape to the polycube, before and after. Without a shape the polycube as it came
     /// stands for it.
     pub distortion: Option<[Distortion; 2]>,
-    /// What was not possible or not as asked, in plain words.
-    pub notes: Vec<String>,
+    /// What was not possible or not as asked.
+    pub notes: Vec<Note>,
 }
 
 impl Report {
@@ -52,7 +52,7 @@ impl Report {
     pub(super) fn new(polycube: &Polycube, alignment: &Alignment, strategy: Strategy, scale: f64) -> Self {
         let notes = match alignment.broken.len() {
             0 => Vec::new(),
-            n => vec![format!("rounding to the lattice made the surface touch or cross itself in {n} places")],
+            n => vec![Note::Broken(n)],
         };
         Self {
             strategy,
@@ -74,12 +74,30 @@ impl Report {
         }
     }
 
-    pub(super) fn note_displacement(&mut self, options: &Options) {
-        let least = self.max_displacement;
-        if let Some(limit) = options.max_displacement.filter(|&l| l < least) {
-            let note = format!("no result found moves the corners by {limit} or less; this one moves them by {least}");
-            self.notes.push(note);
+    /// Says so if corners move farther than the options allow, because of `cause`.
+    pub(super) fn note_displacement(&mut self, options: &Options, cause: Cause) {
+        let moved = self.max_displacement;
+        if let Some(limit) = options.max_displacement.filter(|&limit| !keeps(moved, limit, self.scale)) {
+            self.notes.push(Note::Displacement { moved, limit, cause });
         }
+    }
+
+    /// Says so if the map of a valid result is distorted more than the options allow, because of `cause`.
+    pub(super) fn note_distortion(&mut self, options: &Options, cause: Cause) {
+        let angle = self.distortion.map_or(f64::INFINITY, |[_, after]| after.angle);
+        if let Some(limit) = options.max_distortion.filter(|&l| self.valid && l < angle) {
+            self.notes.push(Note::Distortion { angle, limit, cause });
+        }
+    }
+
+    /// Why corners move farther than they may, if that was said.
+    pub(super) fn cause_of_displacement(&self) -> Option<Cause> {
+        self.notes.iter().find_map(|n| if let Note::Displacement { cause, .. } = n { Some(*cause) } else { None })
+    }
+
+    /// Why the map is distorted more than it may be, if that was said.
+    pub(super) fn cause_of_distortion(&self) -> Option<Cause> {
+        self.notes.iter().find_map(|n| if let Note::Distortion { cause, .. } = n { Some(*cause) } else { None })
     }
 
     /// Counts what the morph turned over and measures the map before and after.
@@ -95,7 +113,7 @@ impl Report {
 
     /// Lists the flipped elements and measures the distortion anew, after `mesh` was changed.
     pub(crate) fn rejudge(&mut self, input: &Input, polycube: &Polycube, mesh: &Mesh) -> Result<()> {
-        self.notes.retain(|note| !note.contains(FLIPPED_NOTE));
+        self.notes.retain(|note| !matches!(note, Note::Flipped { .. }));
         if let Some([before, _]) = self.distortion {
             let after = distortion(input.shape.unwrap_or(input.polycube), mesh);
             self.measured(after.map(|after| [before, after]));
@@ -109,7 +127,7 @@ impl Report {
             Ok(both) => self.distortion = Some(both),
             Err(error) => {
                 self.distortion = None;
-                self.notes.push(format!("the distortion of the map could not be measured: {}", error.message));
+                self.notes.push(Note::Unmeasured(error.message));
             }
         }
     }
@@ -119,15 +137,12 @@ impl Report {
         self.flipped = flipped(mesh, &labels)?;
         self.flipped_elements = self.flipped.cells.len() + self.flipped.faces.len();
         if self.flipped_elements > 0 {
-            let remedy = if self.strategy == Strategy::Best { "; lower the simplicity to move less" } else { "" };
-            self.notes.push(format!("{}{FLIPPED_NOTE}{remedy}", self.flipped_elements));
+            let has_front = self.strategy == Strategy::Best;
+            self.notes.push(Note::Flipped { count: self.flipped_elements, has_front });
         }
         Ok(())
     }
 }
-
-/// What the note about flipped elements says after their number.
-const FLIPPED_NOTE: &str = " elements of the morphed mesh are turned over or flat";
 
 /// Time spent in each stage, in seconds.
 #[derive(Clone, Copy, Debug, Default, PartialEq, serde::Serialize)]

@@ -5,21 +5,34 @@ use super::extract::Skeleton;
 use super::label::{Label, area_vector};
 use super::{Overlaps, Placement, Structure, Surface, Violation};
 use crate::mesh::{Mesh, Point};
+use crate::range::Range;
 
 /// How far a mesh may be from a polycube and still be read as one.
 #[derive(Clone, Copy, Debug, PartialEq, serde::Serialize)]
 pub struct Tolerance {
     /// Largest angle between a face and the nearest axis, in degrees; 0 to 45.
     pub degrees: f64,
-    /// Largest distance of a vertex from the plane of its chart, as a fraction of the bounding box's diagonal.
+    /// Largest distance of a vertex from the plane of its chart, as a fraction of the bounding box's diagonal; 0 to 1.
     pub distance: f64,
-    /// Levels closer than this fraction of the bounding box's diagonal are taken to be equal.
+    /// Levels closer than this fraction of the bounding box's diagonal are taken to be equal; 0 to 1.
     pub merge: f64,
 }
 
 impl Default for Tolerance {
     fn default() -> Self {
         Self { degrees: 30.0, distance: 0.05, merge: 1e-6 }
+    }
+}
+
+impl Tolerance {
+    /// Refuses what is out of its range.
+    ///
+    /// # Errors
+    /// [`ErrorKind::Option`](crate::ErrorKind::Option), which names the field.
+    pub fn check(&self) -> crate::Result<()> {
+        Range::Within(0.0, 45.0).check("tolerance.degrees", self.degrees)?;
+        Range::Within(0.0, 1.0).check("tolerance.distance", self.distance)?;
+        Range::Within(0.0, 1.0).check("tolerance.merge", self.merge)
     }
 }
 

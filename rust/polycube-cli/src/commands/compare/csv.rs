@@ -84,7 +84,7 @@ fn line<'a>(names: Line<'a>, simplification: &'a str, mesh: &Meshing, gain: Opti
         seconds_optimise: Some(mesh.seconds.optimise),
         seconds_measure: Some(mesh.seconds.measure),
         seconds_total: Some(mesh.seconds.total),
-        notes: mesh.notes.join("; "),
+        notes: mesh.notes.iter().map(ToString::to_string).collect::<Vec<_>>().join("; "),
         ..names
     }
 }

@@ -3,6 +3,7 @@
 use super::row::Row;
 use crate::output::table::{Style, styled};
 use polycube::compare::{Comparison, Meshing};
+use polycube::simplify::Note;
 
 /// The columns; the first two are texts.
 const HEADER: [&str; 14] = [
@@ -91,7 +92,7 @@ fn remarks(row: &Row, why: bool) -> Vec<String> {
     let model = &row.model;
     let error = row.error.iter().filter(|_| why).map(|e| format!("{model}: error: {e}"));
     let notes = |name: &'static str, mesh: &Meshing| {
-        let line = |note: &String| format!("{model}, {name}: {note}");
+        let line = |note: &Note| format!("{model}, {name}: {note}");
         mesh.notes.iter().map(line).collect::<Vec<_>>()
     };
     let both = row.comparison.iter().flat_map(|c| [notes("without", &c.without), notes("with", &c.with)]);

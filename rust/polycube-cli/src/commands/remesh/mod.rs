@@ -151,8 +151,9 @@ pub fn work(args: &Args, context: &Context) -> Result<Remeshed> {
     let middle = context.stage("read", 0.05, 0.95);
     let about = Failure::in_files(&args.polycube, args.search.guides.as_deref());
     let (input, mut options) = (meshes.input(), args.options());
-    options.simplify.guides = args.search.guides(&args.polycube, &input, &options.simplify.tolerance)?;
+    options.simplify.guides = args.search.guides()?;
     let mut result = remesh(&input, &options, &middle).map_err(about)?;
+    options.simplify.guides = result.simplified.options.guides.clone();
     result.report.simplify.seconds.read = read;
     let done = start.elapsed().as_secs_f64();
     let elapsed = || start.elapsed().as_secs_f64() - done;

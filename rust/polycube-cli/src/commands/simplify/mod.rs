@@ -174,7 +174,7 @@ pub fn work(args: &Args, context: &Context) -> Result<Done> {
     let middle = context.stage("read", 0.1, if args.pareto { 0.5 } else { 0.9 });
     let about = Failure::in_files(&args.mesh.polycube, args.search.guides.as_deref());
     let (input, mut options) = (meshes.input(), args.options());
-    options.guides = args.search.guides(&args.mesh.polycube, &input, &options.tolerance)?;
+    options.guides = args.search.guides()?;
     let mut result = polycube::simplify::simplify(&input, &options, &middle).map_err(about)?;
     let measuring = context.stage("front", 0.5, 0.9);
     let others = if args.pareto { result.pareto(&input, &measuring)? } else { Vec::new() };

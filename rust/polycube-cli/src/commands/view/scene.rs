@@ -2,7 +2,7 @@
 
 use super::cells::Pieces;
 use crate::input::meshes::MeshFiles;
-use polycube::align::{self, Round};
+use polycube::align::{self, Guides, Round};
 use polycube::layout::Counts;
 use polycube::mesh::{Cells, Face, Mesh, Point, Simplices};
 use polycube::simplify::{Input, Options, Simplified, fit, simplify};
@@ -95,11 +95,10 @@ impl Scene {
         let (polycube, scale) = (&result.input, result.report.scale);
         let start = polycube.placement.iter().map(|x| x * scale).collect();
         let mut steps: Vec<(Option<Round>, Counts, Vec<f64>)> = vec![(None, result.report.before, start)];
-        let settings = align::Options { strategy: result.report.strategy, scale, ..align::Options::default() };
+        let (structure, input, guides) = (&polycube.structure, &polycube.placement, Guides::default());
         for round in &result.report.rounds {
-            let (structure, input) = (&polycube.structure, &polycube.placement);
-            let levels =
-                align::rescale(structure, input, &round.levels, &settings, &context.stage("layouts", 0.0, 0.1))?;
+            let placing = context.stage("layouts", 0.0, 0.1);
+            let levels = align::rescale(structure, input, &round.levels, scale, &guides, &placing)?;
             steps.push((Some(round.clone()), round.counts, placement_of(&levels)));
         }
         steps.push((None, after, placement_of(&result.levels)));

@@ -9,10 +9,12 @@ pub(super) use mirror::symmetries;
 pub(super) use resolved::Guided;
 pub(super) use start::{guided_start, is_valid};
 
-use crate::structure::Polycube;
+use crate::error::{Error, ErrorKind, Place, Result};
+use crate::structure::{Label, Polycube};
+use std::collections::BTreeSet;
 
-/// What the alignment must respect, by facets as [`Structure::facets`](crate::structure::Structure::facets) and
-/// `structure.json` number them. By default nothing.
+/// What the alignment must respect: facets as [`Structure::facets`](crate::structure::Structure::facets) and
+/// `structure.json` number them, or faces and labels that say which facets are meant. By default nothing.
 ///
 /// Every strategy respects all of it, or says with an error why it cannot.
 ///
@@ -26,10 +28,8 @@ use crate::structure::Polycube;
 /// // Seed 0: every part of the example is where symmetry has it.
 /// let (cube, shape) = example(Example::CubeSpikes, 0, CellKind::Quads)?;
 /// let input = Input { polycube: &cube, shape: Some(&shape), labels: None };
-/// let mut guides = Guides { symmetry: vec![Symmetry { axis: 0, at: 0.0 }], ..Guides::default() };
-/// let plain = simplify(&input, &Options::default(), &Context::default())?;
 /// // The facet that holds the first boundary face must not move: what a host has as a selection.
-/// guides.fix_faces(&plain.input, &[0]);
+/// let guides = Guides { fixed_faces: vec![0], symmetry: vec![Symmetry { axis: 0, at: 0.0 }], ..Guides::default() };
 ///
 /// let guided = simplify(&input, &Options { guides, ..Options::default() }, &Context::default())?;
 /// assert!(guided.report.valid);
@@ -42,6 +42,13 @@ pub struct Guides {
     /// other facets find their places around them. Two that mirror each other about a plane of [`Guides::symmetry`] are an error
     /// ([`ErrorKind::Infeasible`](crate::ErrorKind::Infeasible)) where rounding leaves no such plane on the lattice.
     pub fixed: Vec<usize>,
+    /// Boundary faces whose facets must not move, numbered as [`Cells::boundary`](crate::mesh::Cells::boundary) has
+    /// them (for a surface these are its cells).
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub fixed_faces: Vec<usize>,
+    /// Labels, 0 to 5 for +X −X +Y −Y +Z −Z, all of whose facets must not move.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub fixed_labels: Vec<i8>,
     /// Groups of facets of one axis that must lie in one plane.
     pub together: Vec<Vec<usize>>,
     /// Pairs of facets that must not lie in one plane.
@@ -67,14 +74,39 @@ pub struct Symmetry {
 impl Guides {
     /// Whether nothing is asked for.
     pub fn is_empty(&self) -> bool {
-        self.fixed.is_empty() && self.together.is_empty() && self.apart.is_empty() && self.symmetry.is_empty()
+        *self == Self::default()
     }
 
-    /// Locks the facets that hold these boundary faces, numbered as [`Cells::boundary`](crate::mesh::Cells::boundary) has
-    /// them (for a surface these are its cells). Faces that do not exist are passed over.
-    pub fn fix_faces(&mut self, polycube: &Polycube, faces: &[usize]) {
-        self.fixed.extend(faces.iter().filter_map(|&f| polycube.facet_of_face.get(f)).map(|&f| f as usize));
-        self.fixed.sort_unstable();
-        self.fixed.dedup();
+    /// The same with the facets of faces and labels among those that must not move.
+    ///
+    /// # Errors
+    /// [`ErrorKind::Option`] for a face that does not exist and a number that is no label.
+    pub(crate) fn by_facets(&self, polycube: &Polycube) -> Result<Self> {
+        let of_faces: BTreeSet<usize> =
+            self.fixed_faces.iter().map(|&f| facet_of(polycube, f)).collect::<Result<_>>()?;
+        let labels: Vec<Label> = self.fixed_labels.iter().map(|&l| label(l)).collect::<Result<_>>()?;
+        let facets = polycube.structure.facets.iter().enumerate();
+        let of_labels = facets.filter(|(_, f)| labels.contains(&f.label)).map(|(i, _)| i);
+        let fixed = self.fixed.iter().copied().chain(of_faces).chain(of_labels).collect();
+        Ok(Self { fixed, fixed_faces: Vec::new(), fixed_labels: Vec::new(), ..self.clone() })
     }
+}
+
+fn facet_of(polycube: &Polycube, face: usize) -> Result<usize> {
+    let facets = &polycube.facet_of_face;
+    facets.get(face).map(|&facet| facet as usize).ok_or_else(|| {
+        let message = format!("the guides name this face, but there are only {} boundary faces", facets.len());
+        Error::new(ErrorKind::Option, message)
+            .at(Place::Face(u32::try_from(face).unwrap_or(u32::MAX)))
+            .in_option("guides")
+            .remedy("give boundary faces from 0 on")
+    })
+}
+
+fn label(number: i8) -> Result<Label> {
+    Label::new(number).ok_or_else(|| {
+        Error::new(ErrorKind::Option, format!("there is no label {number}"))
+            .in_option("guides")
+            .remedy("give numbers from 0 to 5, for +X -X +Y -Y +Z -Z")
+    })
 }

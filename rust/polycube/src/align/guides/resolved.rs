@@ -55,6 +55,11 @@ impl Guided {
     /// [`ErrorKind::Option`] for a facet that does not exist, for facets of different axes, and where guides contradict each
     /// other or the edges of the polycube. [`ErrorKind::Infeasible`] where facets that mirror each other do not once they are rounded.
     pub fn new(structure: &Structure, input: &[f64], guides: &Guides, scale: f64) -> Result<Self> {
+        debug_assert!(guides.fixed_faces.is_empty() && guides.fixed_labels.is_empty(), "see `Guides::by_facets`");
+        Self::conditions(structure, input, guides, scale).map_err(|e| e.in_option("guides"))
+    }
+
+    fn conditions(structure: &Structure, input: &[f64], guides: &Guides, scale: f64) -> Result<Self> {
         let mut guided = Self { any: !guides.is_empty(), ..Self::free(structure) };
         guides.together.iter().try_for_each(|group| guided.join(structure, group))?;
         guides.symmetry.iter().try_for_each(|plane| guided.mirror(structure, input, plane, scale))?;

@@ -10,7 +10,7 @@ use crate::align::place::place_in_order;
 use crate::align::prove::Proof;
 use crate::align::ranks::Ranks;
 use crate::align::unit::Unit;
-use crate::align::{Alignment, LowerBound, Task, TradeOff};
+use crate::align::{Alignment, LowerBound, Task, TradeOff, keeps};
 use crate::context::Context;
 use crate::error::Result;
 use crate::layout::Counts;
@@ -119,7 +119,7 @@ fn choose(task: &Task, front: &[TradeOff], context: &Context) -> Result<(usize, 
     loop {
         let levels = place_trade_off(task, &front[index], context)?;
         let moved = displacement(task, &levels) / options.scale;
-        if options.max_displacement.is_none_or(|limit| moved <= limit) || index + 1 == front.len() {
+        if options.max_displacement.is_none_or(|limit| keeps(moved, limit, options.scale)) || index + 1 == front.len() {
             return Ok((index, levels));
         }
         index += 1;

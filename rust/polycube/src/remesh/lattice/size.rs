@@ -1,10 +1,10 @@
 //! The scale of the lattice for a wanted size of the mesh.
 
 use super::keys::too_fine;
-use crate::align::{self, Options};
 use crate::context::Context;
 use crate::error::{Error, ErrorKind, Result};
 use crate::mesh::Point;
+use crate::range::Range;
 use crate::simplify::{Input, Simplified};
 use crate::structure::{Arrangement, Structure, area_vector, placement_of};
 
@@ -30,20 +30,15 @@ impl Size {
     /// [`ErrorKind::Option`].
     pub(crate) fn check(self) -> Result<()> {
         match self {
-            Self::Scale(scale) => positive(scale, "the scale").map(drop),
-            Self::EdgeLength(length) => positive(length, "the edge length").map(drop),
-            Self::Hexes(0) => Err(Error::new(ErrorKind::Option, "a mesh has at least one hexahedron")),
+            Self::Scale(scale) => Range::Positive.check("scale", scale),
+            Self::EdgeLength(length) => Range::Positive.check("edge_length", length),
+            Self::Hexes(0) => {
+                Err(Error::new(ErrorKind::Option, "a mesh has at least one hexahedron").in_option("size"))
+            }
             Self::Hexes(count) if count > MOST_HEXES => Err(too_many(count as u64)),
             Self::Hexes(_) => Ok(()),
         }
     }
-}
-
-fn positive(x: f64, what: &str) -> Result<f64> {
-    if x.is_finite() && x > 0.0 {
-        return Ok(x);
-    }
-    Err(Error::new(ErrorKind::Option, format!("{what} {x} is not a positive number")))
 }
 
 fn too_many(count: u64) -> Error {
@@ -70,7 +65,8 @@ const CLOSE: f64 = 0.005;
 /// from, and there is a least count. Takes up to 40 placements of the levels, some milliseconds each.
 ///
 /// # Errors
-/// [`ErrorKind::Option`] for a size that is not positive and finite, or for more hexahedra than [`MOST_HEXES`]; those of [`align::rescale`].
+/// [`ErrorKind::Option`] for a size that is not positive and finite, or for more hexahedra than [`MOST_HEXES`];
+/// those of [`align::rescale`](crate::align::rescale()).
 pub fn scale_for(input: &Input, simplified: &Simplified, size: Size, padding: usize, context: &Context) -> Result<f64> {
     size.check()?;
     match size {
@@ -152,11 +148,8 @@ impl ScaleSearch<'_> {
     }
 
     fn count(&self, scale: f64, context: &Context) -> Result<f64> {
-        let Simplified { input, levels, report, .. } = self.simplified;
-        let guides = self.simplified.options.guides.clone();
-        let options = Options { strategy: report.strategy, scale, guides, ..Options::default() };
-        let levels = align::rescale(&input.structure, self.targets, levels, &options, context)?;
-        Ok((count_hexes(&input.structure, &levels, self.padding) as f64).max(0.5))
+        let levels = self.simplified.levels_at(self.targets, scale, context)?;
+        Ok((count_hexes(&self.simplified.input.structure, &levels, self.padding) as f64).max(0.5))
     }
 
     /// The root of `volume s³ + padding · surface s² = wanted`.

@@ -159,6 +159,7 @@ pub(crate) fn check_padding(padding: usize) -> Result<()> {
         return Ok(());
     }
     Err(Error::new(ErrorKind::Option, format!("{padding} padding layers are too many"))
+        .in_option("padding")
         .remedy(format!("use 0 to {MAX_PADDING}")))
 }
 

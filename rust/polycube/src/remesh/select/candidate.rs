@@ -12,7 +12,7 @@ use crate::remesh::fit::Aim;
 use crate::remesh::lattice::{check_count, scale_for};
 use crate::remesh::map::{Refined, on_levels, untangle_surface};
 use crate::remesh::options::RemeshOptions;
-use crate::simplify::{Input, Simplified};
+use crate::simplify::{Input, Note, Simplified};
 
 /// What a mesh is made from.
 pub(crate) struct Candidate {
@@ -83,26 +83,11 @@ fn placed(input: &Input, found: Simplified, options: &RemeshOptions, context: &C
         None if found.report.valid => return Ok(found),
         None => found.report.scale,
     };
-    let mut fitted = found.rescaled(input, scale, &context.stage("scale", 0.3, 0.6))?;
+    let fitted = found.rescaled(input, scale, &context.stage("scale", 0.3, 0.6))?;
     if fitted.report.valid {
-        keep_notes(&mut fitted, &found, options);
         return Ok(fitted);
     }
     in_order(input, found, options, scale, &context.stage("scale", 0.6, 1.0))
-}
-
-/// Says of a polycube at the wanted size what was said of it before, and whether its corners move farther there than they may.
-fn keep_notes(fitted: &mut Simplified, found: &Simplified, options: &RemeshOptions) {
-    let report = &mut fitted.report;
-    let new = found.report.notes.iter().filter(|note| !report.notes.contains(note)).cloned();
-    report.notes = new.chain(report.notes.iter().cloned()).collect();
-    let Some(limit) = options.simplify.max_displacement else { return };
-    let moved = report.max_displacement;
-    if moved > limit && found.report.max_displacement <= limit {
-        report.notes.push(format!(
-            "at this size the corners move by {moved:.6}, more than {limit}: a finer lattice or a smaller limit moves them less"
-        ));
-    }
 }
 
 /// The levels of the input in their own order, where plain rounding broke the polycube.
@@ -122,8 +107,7 @@ fn in_order(
     };
     let mut result = found.rescaled(input, scale, context)?;
     result.report.strategy = options.simplify.strategy;
-    let note = "rounding to the lattice broke the polycube, so the levels were placed in the order they have";
-    result.report.notes.push(note.to_owned());
+    result.report.notes.push(Note::InOrder);
     Ok(result)
 }
 

@@ -5,8 +5,10 @@ use super::bisection::Bisection;
 use super::candidate::Candidate;
 use crate::context::Context;
 use crate::error::Result;
+use crate::layout::Counts;
+use crate::mesh::CellKind;
 use crate::remesh::options::RemeshOptions;
-use crate::simplify::{Input, Simplified};
+use crate::simplify::{Input, Note, Simplified};
 
 /// A mesh whose worst scaled Jacobian is this is good: the least that Verdict's manual calls acceptable for hexahedra.
 pub(crate) const GOOD: f64 = 0.5;
@@ -164,16 +166,10 @@ impl<'a> Candidates<'a> {
         let (report, first) = (&mut result.report, &self.first.report);
         let after = report.after.filter(|_| report.chosen != first.chosen);
         if let (Some(ours), Some(least)) = (after, first.after) {
-            let (counted, cells) = if self.options.surface_only {
-                (format!("{} patches instead of {}", ours.surface_patches, least.surface_patches), "quadrilaterals")
-            } else {
-                (format!("{} blocks instead of {}", ours.blocks_padded, least.blocks_padded), "hexahedra")
-            };
-            let note = format!(
-                "{}: fewer made bad {} or a mesh too far from the shape; a limit on the displacement or a simplicity chooses otherwise",
-                counted, cells
-            );
-            report.notes.push(note);
+            let surface = self.options.surface_only;
+            let counted = |c: &Counts| if surface { c.surface_patches } else { c.blocks_padded };
+            let cells = if surface { CellKind::Quads } else { CellKind::Hexahedra };
+            report.notes.push(Note::MoreBlocks { count: counted(&ours), least: counted(&least), cells });
         }
     }
 }

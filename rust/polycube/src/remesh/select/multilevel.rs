@@ -2,7 +2,7 @@
 
 use super::coarse_mesh::CoarseMesh;
 use super::spacing::spaced;
-use crate::align::{self, Options, Strategy};
+use crate::align::{self, Guides};
 use crate::context::Context;
 use crate::error::{Error, ErrorKind, Result};
 use crate::mesh::Mesh;
@@ -28,7 +28,7 @@ const FEWER: f64 = 0.6;
 /// Those of [`align::rescale`].
 fn coarser(map: &Simplified, padding: usize, context: &Context) -> Result<Vec<Simplified>> {
     let structure = &map.input.structure;
-    let halving = Options { strategy: Strategy::Paper, scale: 0.5, ..Options::default() };
+    let free = Guides::default();
     let blocks = map.report.after.map_or(0, |counts| counts.blocks_padded);
     let mut maps: Vec<Simplified> = Vec::new();
     loop {
@@ -38,7 +38,7 @@ fn coarser(map: &Simplified, padding: usize, context: &Context) -> Result<Vec<Si
             break;
         }
         let targets: Vec<f64> = fine.levels.iter().map(|&x| x as f64).collect();
-        let levels = align::rescale(structure, &targets, &fine.levels, &halving, context)?;
+        let levels = align::rescale(structure, &targets, &fine.levels, 0.5, &free, context)?;
         if count_hexes(structure, &levels, padding) as f64 > FEWER * count as f64 {
             break;
         }

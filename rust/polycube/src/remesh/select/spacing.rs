@@ -1,7 +1,7 @@
 //! Lattice steps where the shape is long: the levels of a polycube spaced by what lies between them on the shape.
 
 use super::coarse_mesh::CoarseMesh;
-use crate::align::{self, Options};
+use crate::align::{self, Guides};
 use crate::context::Context;
 use crate::error::Result;
 use crate::remesh::lattice::{ScaleSearch, count_hexes};
@@ -18,8 +18,7 @@ pub(crate) fn spaced(map: &Simplified, coarse: &CoarseMesh, padding: usize, cont
     let wanted = count_hexes(structure, &map.levels, padding) as f64;
     let search = ScaleSearch { simplified: map, targets: &targets, padding, wanted };
     let scale = search.run(context)?;
-    let options = Options { strategy: align::Strategy::Paper, scale, ..Options::default() };
-    align::rescale(structure, &targets, &map.levels, &options, context)
+    align::rescale(structure, &targets, &map.levels, scale, &Guides::default(), context)
 }
 
 /// Where each level would lie if lattice steps were as long as on the shape, from 0 for the lowest of each axis.
