@@ -96,9 +96,9 @@ pub fn boundary(view: &MeshView) -> Result<MeshData> {
     })
 }
 
-/// See `polycube::optimise::scaled_jacobians`.
+/// See `polycube::measure::scaled_jacobians`.
 pub fn scaled_jacobians(view: &MeshView) -> Result<Vec<f64>> {
-    guard(|| polycube::optimise::scaled_jacobians(&mesh(view)?))
+    guard(|| polycube::measure::scaled_jacobians(&mesh(view)?))
 }
 
 /// The names that [`example`] knows.

@@ -43,17 +43,13 @@ fn size(data: &RemeshOptionsData) -> polycube::Result<Size> {
 }
 
 fn remeshed(result: Remeshed) -> polycube::Result<RemeshedData> {
-    let Remeshed { simplified, layout, quads, hexes, scaled_jacobian, report } = result;
+    let Remeshed { simplified, layout, quads, hexes, report } = result;
     Ok(RemeshedData {
         simplified: Box::new(Simplified(simplified)),
-        // Without hexahedra the corners of blocks inside have no place.
-        layout: LayoutData {
-            blocks: hexes.as_ref().map_or_else(MeshData::empty, |_| (&layout.blocks).into()),
-            ..(&layout).into()
-        },
+        layout: (&layout).into(),
         quads: quads.into(),
         has_hexes: hexes.is_some(),
-        hexes: hexes_data(hexes, scaled_jacobian),
+        hexes: hexes_data(hexes),
         report_json: json(&report)?,
         report: (&report).into(),
     })
@@ -62,7 +58,7 @@ fn remeshed(result: Remeshed) -> polycube::Result<RemeshedData> {
 impl From<&Layout> for LayoutData {
     fn from(layout: &Layout) -> Self {
         Self {
-            blocks: (&layout.blocks).into(),
+            blocks: layout.blocks.as_ref().map_or_else(MeshData::empty, MeshData::from),
             patches: (&layout.patches).into(),
             patch_label: layout.patch_label.clone(),
             singular: layout.singular.iter().map(SingularData::from).collect(),
@@ -76,12 +72,16 @@ impl From<Quads> for QuadsData {
     }
 }
 
-fn hexes_data(hexes: Option<Hexes>, scaled_jacobian: Vec<f64>) -> HexesData {
+fn hexes_data(hexes: Option<Hexes>) -> HexesData {
     match hexes {
-        Some(Hexes { mesh, block_id, label, .. }) => {
+        Some(hexes) => {
+            let scaled_jacobian = hexes.quality().of_cell;
+            let Hexes { mesh, block_id, label, .. } = hexes;
             HexesData { mesh: (&mesh).into(), block_id, label, scaled_jacobian }
         }
-        None => HexesData { mesh: MeshData::empty(), block_id: Vec::new(), label: Vec::new(), scaled_jacobian },
+        None => {
+            HexesData { mesh: MeshData::empty(), block_id: Vec::new(), label: Vec::new(), scaled_jacobian: Vec::new() }
+        }
     }
 }
 

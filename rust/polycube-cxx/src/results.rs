@@ -80,9 +80,9 @@ impl From<&Counts> for CountsData {
     }
 }
 
-impl From<&polycube::map::Distortion> for DistortionData {
-    fn from(d: &polycube::map::Distortion) -> Self {
-        let polycube::map::Distortion { angle, size, worst_angle, worst_size, worst_cell, .. } = *d;
+impl From<&polycube::measure::Distortion> for DistortionData {
+    fn from(d: &polycube::measure::Distortion) -> Self {
+        let polycube::measure::Distortion { angle, size, worst_angle, worst_size, worst_cell, .. } = *d;
         Self { angle, size, worst_angle, worst_size, worst_cell }
     }
 }

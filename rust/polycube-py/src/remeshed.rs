@@ -34,7 +34,7 @@ impl From<Quads> for PyQuads {
     fn from(quads: Quads) -> Self {
         let feature_edges = quads.feature_edges().into_flattened();
         let fields = quads.fields();
-        let scaled_jacobian = quads.scaled_jacobian();
+        let scaled_jacobian = quads.quality().of_cell;
         let Quads { mesh, polycube, label, patch_id, block_id, .. } = quads;
         Self(Arc::new(QuadParts {
             mesh: mesh.into(),
@@ -131,9 +131,8 @@ struct HexParts {
 }
 
 impl PyHexes {
-    fn new(hexes: Hexes, scaled_jacobian: Vec<f64>) -> Self {
-        let mut fields = hexes.fields();
-        fields.push(CellField::real("scaled_jacobian", scaled_jacobian.clone()));
+    fn new(hexes: Hexes) -> Self {
+        let (fields, scaled_jacobian) = (hexes.fields(), hexes.quality().of_cell);
         let Hexes { mesh, polycube, block_id, label, .. } = hexes;
         Self(Arc::new(HexParts { mesh: mesh.into(), polycube, fields, label, block_id, scaled_jacobian }))
     }
@@ -232,13 +231,12 @@ struct LayoutParts {
 }
 
 impl PyLayout {
-    /// Without hexahedra there are no blocks: their inner corners have no place.
-    fn new(layout: Layout, with_blocks: bool) -> Self {
+    fn new(layout: Layout) -> Self {
         let Layout { blocks, patches, patch_label, singular } = layout;
         Self(Arc::new(LayoutParts {
             patches: patches.into(),
             patch_label,
-            blocks: with_blocks.then(|| blocks.into()),
+            blocks: blocks.map(PyMesh::from),
             singular: singular.into_iter().map(|e| (e.points, e.valence)).collect(),
         }))
     }
@@ -292,12 +290,12 @@ struct Parts {
 
 impl PyRemeshed {
     fn new(result: Remeshed, source: Source) -> Self {
-        let Remeshed { simplified, layout, quads, hexes, scaled_jacobian, report } = result;
+        let Remeshed { simplified, layout, quads, hexes, report } = result;
         Self(Arc::new(Parts {
             simplified: PySimplified::new(simplified, source),
             quads: quads.into(),
-            layout: PyLayout::new(layout, hexes.is_some()),
-            hexes: hexes.map(|hexes| PyHexes::new(hexes, scaled_jacobian)),
+            layout: PyLayout::new(layout),
+            hexes: hexes.map(PyHexes::new),
             report,
         }))
     }

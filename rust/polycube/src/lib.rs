@@ -5,9 +5,9 @@
 //! [`mod@remesh`] → [`mod@compare`]. Beside it stand [`mod@validate`], which lists all that is wrong with an input, and
 //! [`generate`], which makes examples.
 //!
-//! Words: a **chart** is a set of boundary faces with one direction that hang together on the mesh; the **facet** is the same
-//! set as a plane region of the polycube. A facet has a **level**, its coordinate along its axis; facets of one axis that meet
-//! at a corner share one.
+//! Words: a **chart** is a set of boundary faces with one direction that hang together on the mesh; the **facet** is
+//! the same set as a plane region of the polycube. A facet has a **level**, its coordinate along its axis; facets of
+//! one axis that meet at a corner share one.
 //!
 //! ```
 //! use polycube::generate::{Example, example};
@@ -34,12 +34,14 @@ pub mod error;
 pub mod generate;
 pub mod layout;
 pub mod map;
+pub mod measure;
 pub mod mesh;
 pub mod optimise;
 mod range;
 pub mod remesh;
 mod rng;
 pub mod simplify;
+mod spatial;
 pub mod structure;
 pub mod validate;
 

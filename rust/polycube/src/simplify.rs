@@ -10,25 +10,25 @@ use crate::range::Range;
 use crate::structure::{Arrangement, Edge, Overlaps, Polycube, Tolerance, placement_of};
 use std::time::Instant;
 
-mod blame;
-mod corners;
-mod fits;
+mod compatibility;
+mod corner_tetrahedra;
+mod diagnosis;
 mod front;
 mod note;
 mod report;
 #[cfg(test)]
 mod tests;
-mod untangle;
+mod untangling;
 
-pub(crate) use blame::remedy;
-use blame::{blame, first_of_many};
-pub(crate) use corners::Corners;
-pub use fits::LARGEST_COORDINATE;
-pub(crate) use fits::{Misfit, check_fit, check_side};
+pub use compatibility::LARGEST_COORDINATE;
+pub(crate) use compatibility::{Misfit, check_compatible, check_side};
+pub(crate) use corner_tetrahedra::CornerTetrahedra;
+pub(crate) use diagnosis::remedy;
+use diagnosis::{diagnose, first_of_many};
 pub use front::Located;
 pub use note::{Cause, Note};
 pub use report::{Report, Seconds};
-pub(crate) use untangle::untangle;
+pub(crate) use untangling::untangle_morphed;
 
 /// What is simplified.
 #[derive(Clone, Copy, Debug)]
@@ -62,8 +62,9 @@ pub struct Options {
     pub simplicity: Option<f64>,
     /// The farthest that the strategy `best` may move a corner, in units of the polycube; 0 where none shall move.
     pub max_displacement: Option<f64>,
-    /// The largest mean angle distortion ([`Distortion::angle`](crate::map::Distortion::angle), at least 1) that the map from the shape to the result of the
-    /// strategy `best` may have; of the front, the point with the fewest blocks that keeps it is taken.
+    /// The largest mean angle distortion ([`Distortion::angle`](crate::measure::Distortion::angle), at least 1) that
+    /// the map from the shape to the result of the strategy `best` may have; of the front, the point with the fewest
+    /// blocks that keeps it is taken.
     pub max_distortion: Option<f64>,
     /// Facets that must not move, that must or must not align, planes of symmetry.
     pub guides: Guides,
@@ -134,8 +135,8 @@ pub fn read_structure(input: &Input, tolerance: &Tolerance) -> Result<Polycube> 
 
 fn read_in_steps(input: &Input, tolerance: &Tolerance, context: &Context) -> Result<Polycube> {
     context.tick(0.0)?;
-    check_fit(input)?;
-    let polycube = Polycube::new(input.polycube, input.labels, tolerance).map_err(|v| blame(v, input, tolerance))?;
+    check_compatible(input)?;
+    let polycube = Polycube::new(input.polycube, input.labels, tolerance).map_err(|v| diagnose(v, input, tolerance))?;
     context.tick(0.9)?;
     let points = &input.polycube.points;
     let overlaps = Overlaps::of(&polycube);
@@ -148,11 +149,12 @@ fn read_in_steps(input: &Input, tolerance: &Tolerance, context: &Context) -> Res
     Ok(polycube)
 }
 
-/// Simplifies a polycube (paper, Algorithm 1): finds its structure, aligns its corners on the integer
-/// lattice, and morphs the mesh onto the result.
+/// Simplifies a polycube (paper, Algorithm 1): finds its structure, aligns its corners on the integer lattice, and
+/// morphs the mesh onto the result.
 ///
 /// # Errors
-/// [`ErrorKind::Option`] for an option out of its range; those of [`read_structure`] and [`align::align`]; [`ErrorKind::Cancelled`].
+/// [`ErrorKind::Option`] for an option out of its range; those of [`read_structure`] and [`align::align`];
+/// [`ErrorKind::Cancelled`].
 pub fn simplify(input: &Input, options: &Options, context: &Context) -> Result<Simplified> {
     let start = Instant::now();
     options.check()?;
@@ -182,7 +184,7 @@ pub fn simplify(input: &Input, options: &Options, context: &Context) -> Result<S
 
 impl Simplified {
     fn check_input(&self, input: &Input) -> Result<()> {
-        check_fit(input)?;
+        check_compatible(input)?;
         let Polycube { surface, vertex_levels, .. } = &self.input;
         let polycube = input.polycube;
         let is_own = || polycube.cells.boundary().is_ok_and(|faces| faces == surface.faces());
@@ -254,7 +256,7 @@ fn finish(
         let mut mesh = fit(&polycube, input.polycube, &placement, report.scale, &context.stage("morph", 0.0, 0.6))?;
         if report.strategy == Strategy::Best && !options.keep_flipped {
             let shape = input.shape.unwrap_or(input.polycube);
-            untangle(&polycube, &mut mesh, shape, &context.stage("untangle", 0.6, 0.9))?;
+            untangle_morphed(&polycube, &mut mesh, shape, &context.stage("untangle", 0.6, 0.9))?;
         }
         report.judge(input, &polycube, &mesh, &context.stage("judge", 0.9, 1.0))?;
         result = Some(mesh);
@@ -279,12 +281,12 @@ fn default_scale(polycube: &Polycube, mesh: &Mesh) -> f64 {
     count / sum
 }
 
-/// The mesh that `polycube` was read from, scaled by `scale` and morphed onto `placement`, which is in scaled units: how
-/// [`simplify`] makes its result, for any other placement of the levels.
+/// The mesh that `polycube` was read from, scaled by `scale` and morphed onto `placement`, which is in scaled units:
+/// how [`simplify`] makes its result, for any other placement of the levels.
 ///
 /// # Errors
-/// [`ErrorKind::Mismatch`] for a mesh with another number of vertices, [`ErrorKind::Option`] for a placement that has not one finite
-/// number for each level or turns a polycube edge round; those of [`morph()`].
+/// [`ErrorKind::Mismatch`] for a mesh with another number of vertices, [`ErrorKind::Option`] for a placement that has
+/// not one finite number for each level or turns a polycube edge round; those of [`morph()`].
 pub fn fit(polycube: &Polycube, mesh: &Mesh, placement: &[f64], scale: f64, context: &Context) -> Result<Mesh> {
     if mesh.points.len() != polycube.vertex_levels.len() {
         return Err(Error::new(ErrorKind::Mismatch, "this is not the mesh that the polycube was read from"));

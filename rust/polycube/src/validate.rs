@@ -1,9 +1,9 @@
 //! Everything that is wrong with a polycube and its shape, for people and programs.
 
 use crate::error::{Error, Place, Result};
-use crate::map::flipped;
+use crate::measure::flipped;
 use crate::mesh::{Face, Mesh, Point};
-use crate::simplify::{Input, Misfit, check_fit, check_side, remedy};
+use crate::simplify::{Input, Misfit, check_compatible, check_side, remedy};
 use crate::structure::{Polycube, Tolerance, Violation};
 
 /// Which of the two meshes a finding is about.
@@ -62,7 +62,7 @@ pub struct Finding {
 /// [`ErrorKind::Option`](crate::ErrorKind::Option) for a tolerance out of its range.
 pub fn validate(input: &Input, tolerance: &Tolerance) -> Result<Vec<Finding>> {
     tolerance.check()?;
-    let misfit = check_fit(input).err();
+    let misfit = check_compatible(input).err();
     let of_polycube = misfit.as_ref().is_some_and(|m| !m.in_shape);
     let (mut findings, polycube) = if of_polycube { (Vec::new(), None) } else { polycube(input, tolerance) };
     let sides = |polycube: Polycube, shape: &Mesh| check_side(&polycube, &input.polycube.points, &shape.points).err();
@@ -162,7 +162,8 @@ impl<'a> Middles<'a> {
 }
 
 impl Mesh {
-    /// The mean of an element's vertices; nothing for elements that are not there and for those of structures and files.
+    /// The mean of an element's vertices; nothing for elements that are not there and for those of structures and
+    /// files.
     pub fn middle(&self, place: Place) -> Option<[f64; 3]> {
         match place {
             Place::Vertex(v) => mean(self, &[v]),

@@ -4,7 +4,7 @@ use super::folder::Output;
 use super::table::{short, table};
 use polycube::Result;
 use polycube::layout::Counts;
-use polycube::map::Distortion;
+use polycube::measure::Distortion;
 use polycube::mesh::{self, Format};
 use polycube::simplify::Simplified;
 use serde::Serialize;

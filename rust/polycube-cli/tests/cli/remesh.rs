@@ -2,8 +2,8 @@
 
 use super::Sandbox;
 use polycube::generate::{Example, example};
+use polycube::measure::cell_qualities;
 use polycube::mesh::{self, CellKind, Cells};
-use polycube::optimise::cell_qualities;
 
 /// A sandbox with a pair named `shape.EXT` and `cube.EXT`.
 fn sandbox(kind: CellKind, extension: &str) -> Sandbox {

@@ -1,6 +1,5 @@
 //! Whether an order of levels is a valid polycube, and what it counts: quickly where rows of bits hold it.
 
-use super::guides::is_valid;
 use super::ranks::Ranks;
 use crate::layout::{Counter, Counts, Objective, count, counter};
 use crate::structure::{Arrangement, Structure};
@@ -59,4 +58,9 @@ impl<'a> Judge<'a> {
         let arrangement = Arrangement::new(self.structure, &ranks.placement());
         is_valid(&arrangement).then(|| count(&arrangement))
     }
+}
+
+/// Whether the surface is embedded with its solid side inside.
+pub fn is_valid(arrangement: &Arrangement) -> bool {
+    arrangement.conflicts().is_empty() && arrangement.inside_out().is_empty()
 }

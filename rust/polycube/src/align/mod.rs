@@ -3,12 +3,16 @@
 //! [`align`] is the way in. Algorithm 1 pairs corners ([`neighbours`]), turns the pairs and the distances to keep
 //! into an integer [`problem`], [`solve`]s it, checks the result exactly, and repeats.
 
+mod chain;
 mod classes;
+mod difference;
+mod effort;
 pub mod guides;
 mod judge;
 mod options;
 mod paper;
 mod place;
+mod potential;
 pub mod problem;
 pub mod prove;
 pub mod ranks;
@@ -16,24 +20,26 @@ mod relax;
 mod search;
 mod separate;
 pub mod solve;
+mod start;
 mod unit;
 
+pub use effort::Effort;
 pub use guides::{Guides, Symmetry};
 pub(crate) use options::keeps;
 pub use options::{Options, SolverKind, Strategy};
 pub use paper::{Round, neighbours};
-pub use search::Effort;
 
 use crate::context::Context;
 use crate::error::{Error, ErrorKind, Result};
 use crate::layout::{Counts, count};
 use crate::range::Range;
 use crate::structure::{Arrangement, Conflict, Placement, Structure, placement_of};
-use guides::{Guided, guided_start, is_valid};
-use judge::Judge;
+use guides::Guided;
+use judge::{Judge, is_valid};
 use place::place_in_order;
 use problem::Problem;
 use ranks::Ranks;
+use start::guided_start;
 use std::time::Instant;
 
 /// Levels on the lattice, and how they got there.
@@ -49,7 +55,8 @@ pub struct Alignment {
     pub rounds: Vec<Round>,
     /// What a naive rounding broke; empty for every other strategy.
     pub broken: Vec<Conflict>,
-    /// The trade-off between few blocks and little displacement, from the fewest blocks on; only from [`Strategy::Best`].
+    /// The trade-off between few blocks and little displacement, from the fewest blocks on; only from
+    /// [`Strategy::Best`].
     pub front: Vec<TradeOff>,
     /// Which trade-off of the front the levels are; nothing if they are none.
     pub chosen: Option<usize>,
@@ -73,8 +80,8 @@ pub struct LowerBound {
 pub struct TradeOff {
     /// What the objective counts.
     pub count: usize,
-    /// Root mean square of the corners' displacement, in units of the input, on a lattice of half the shortest edge; 0 for the input
-    /// itself, where a finer lattice leaves its levels where they are.
+    /// Root mean square of the corners' displacement, in units of the input, on a lattice of half the shortest edge; 0
+    /// for the input itself, where a finer lattice leaves its levels where they are.
     pub displacement: f64,
     /// The number of every level's plane, from 1.
     pub order: Vec<u16>,
@@ -82,15 +89,15 @@ pub struct TradeOff {
 
 /// Moves the levels of a valid polycube to integers so that they align.
 ///
-/// `input` is the coordinate of each level; its arrangement must be free of conflicts. The result keeps facets,
-/// corners and edges, is embedded, and has no more blocks than the input. Which levels coincide and how the
-/// others are ordered does not depend on the scale (paper, Fig. 3), nor on units or position of the input.
+/// `input` is the coordinate of each level; its arrangement must be free of conflicts. The result keeps facets, corners
+/// and edges, is embedded, and has no more blocks than the input. Which levels coincide and how the others are ordered
+/// does not depend on the scale (paper, Fig. 3), nor on units or position of the input.
 ///
 /// # Errors
-/// [`ErrorKind::Option`] for a scale that is not positive or too large for the lattice and for guides that name what does not exist or
-/// contradict each other, [`ErrorKind::Polycube`] for an input that touches itself,
-/// [`ErrorKind::Unsupported`] for more than 65535 levels along one axis, [`ErrorKind::Infeasible`] if no valid polycube with no
-/// more blocks is found that respects the guides, [`ErrorKind::Cancelled`].
+/// [`ErrorKind::Option`] for a scale that is not positive or too large for the lattice and for guides that name what
+/// does not exist or contradict each other, [`ErrorKind::Polycube`] for an input that touches itself,
+/// [`ErrorKind::Unsupported`] for more than 65535 levels along one axis, [`ErrorKind::Infeasible`] if no valid polycube
+/// with no more blocks is found that respects the guides, [`ErrorKind::Cancelled`].
 pub fn align(structure: &Structure, input: &[f64], options: &Options, context: &Context) -> Result<Alignment> {
     let before = counts_before(structure, input)?;
     let task = Task::new(structure, input, before, options, context)?;
@@ -125,12 +132,12 @@ fn check(structure: &Structure, levels: &[i64]) -> Result<()> {
     Err(Error::new(ErrorKind::Internal, "the polycube found touches itself"))
 }
 
-/// The levels of another point of the front that [`align`] found with the same `options` (the scale may differ): no search, only
-/// placing. `before` are the counts of the input.
+/// The levels of another point of the front that [`align`] found with the same `options` (the scale may differ): no
+/// search, only placing. `before` are the counts of the input.
 ///
 /// # Errors
-/// [`ErrorKind::Option`] for a scale that is not positive or too large for the lattice, [`ErrorKind::Infeasible`] if what the
-/// guides fix leaves no room at this scale, [`ErrorKind::Cancelled`].
+/// [`ErrorKind::Option`] for a scale that is not positive or too large for the lattice, [`ErrorKind::Infeasible`] if
+/// what the guides fix leaves no room at this scale, [`ErrorKind::Cancelled`].
 pub fn place(
     structure: &Structure,
     input: &[f64],
@@ -211,8 +218,8 @@ impl TradeOff {
 /// `input` on a lattice with `scale` steps per unit. Takes no search, and no more than sorting.
 ///
 /// # Errors
-/// [`ErrorKind::Option`] for a scale that is not positive or too large for the lattice, [`ErrorKind::Infeasible`] if what the guides
-/// fix leaves no room at this scale, [`ErrorKind::Cancelled`].
+/// [`ErrorKind::Option`] for a scale that is not positive or too large for the lattice, [`ErrorKind::Infeasible`] if
+/// what the guides fix leaves no room at this scale, [`ErrorKind::Cancelled`].
 pub fn rescale(
     structure: &Structure,
     input: &[f64],

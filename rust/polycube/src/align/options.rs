@@ -1,7 +1,7 @@
 //! What the alignment shall do.
 
+use super::effort::Effort;
 use super::guides::Guides;
-use super::search::Effort;
 use super::solve::{ExactSolver, LinearSolver, Solver};
 use crate::layout::Objective;
 

@@ -13,7 +13,8 @@
 //! Targets are rounded once to multiples of `2^−FRACTION_BITS`. From then on cost and marginal costs are integers in
 //! units of `2^−(halvings + 2 · FRACTION_BITS)`, so every machine takes the same decisions.
 
-use super::solve::potential;
+pub use super::difference::Difference;
+use super::potential;
 use crate::error::{Error, ErrorKind, Result};
 use serde::{Deserialize, Serialize};
 use std::fmt;
@@ -36,25 +37,6 @@ pub struct PairTerm {
     pub b: u32,
     /// Number of corner pairs that ask for this alignment.
     pub weight: u32,
-}
-
-/// The constraint `x[high] − x[low] ≥ gap`.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
-pub struct Difference {
-    /// The variable that stays below.
-    pub low: u32,
-    /// The variable that stays above.
-    pub high: u32,
-    /// The least distance; zero and negative distances are allowed.
-    pub gap: i64,
-}
-
-impl Difference {
-    /// Ascends with the lower variable, the higher one, and the gap: one number to sort by, which is faster than three.
-    pub(crate) fn rank(&self) -> u128 {
-        let gap = (self.gap as u64) ^ (1 << 63);
-        u128::from(self.low) << 96 | u128::from(self.high) << 64 | u128::from(gap)
-    }
 }
 
 /// The constraint `Σ coefficient · x[variable] ≥ at_least`, for what is not a difference (paper, Eq. 4).

@@ -2,7 +2,6 @@
 
 use super::classes::Classes;
 use super::judge::Judge;
-use super::paper::Pair;
 use super::problem::{Difference, Linear, PairTerm, Problem, ShapeTerm};
 use super::ranks::Ranks;
 use super::separate::{holds, separations};
@@ -10,6 +9,22 @@ use super::solve::Solver;
 use crate::context::Context;
 use crate::error::{Error, ErrorKind, Result};
 use crate::structure::{Arrangement, Placement, Structure, placement_of};
+
+/// Two corners that shall come to have the same coordinate along an axis.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, serde::Serialize)]
+pub struct Pair {
+    /// 0, 1 or 2 for X, Y or Z.
+    pub axis: usize,
+    /// The corners, ascending.
+    pub corners: [u32; 2],
+}
+
+impl Pair {
+    /// The levels that become equal.
+    pub fn levels(&self, structure: &Structure) -> [u32; 2] {
+        self.corners.map(|c| structure.corners[c as usize].levels[self.axis])
+    }
+}
 
 /// What one round asks for: where the levels want to be, which pairs attract, what must hold.
 pub struct Demand<'a> {

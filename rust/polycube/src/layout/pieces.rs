@@ -134,7 +134,7 @@ mod tests {
     use crate::generate::{Example, example};
     use crate::layout::count;
     use crate::mesh::CellKind;
-    use crate::remesh::Remesher;
+    use crate::remesh::{LatticeMap, Remesher};
     use crate::simplify::{Input, Options, simplify};
     use crate::structure::placement_of;
     use std::collections::BTreeSet;
@@ -153,7 +153,8 @@ mod tests {
             let counts = count(&Arrangement::new(&result.input.structure, &levels));
             let found: BTreeSet<u32> = pieces.patch_of_face.iter().copied().collect();
             assert_eq!(found, (0..counts.surface_patches as u32).collect(), "{name}");
-            let quads = Remesher::new(&result, &mesh, &Context::default()).unwrap().quads(&Context::default()).unwrap();
+            let map = LatticeMap::new(&result).unwrap();
+            let quads = Remesher::new(&map, &mesh, &Context::default()).unwrap().quads(&Context::default()).unwrap();
             let middle = |points: &[Point], v: &[u32]| {
                 let sum: nalgebra::Vector3<f64> = v.iter().map(|&v| points[v as usize].coords).sum();
                 [0, 1, 2].map(|a| sum[a].round() as i64)

@@ -1,6 +1,6 @@
 //! Cotangent weights of a triangulated surface.
 
-use super::sparse::Rows;
+use super::sparse::SparseRows;
 use crate::context::Context;
 use crate::error::Result;
 use crate::mesh::{Point, Stars};
@@ -19,10 +19,10 @@ pub(super) const CHUNK: usize = 1 << 13;
 /// linear elements, positive semidefinite for any triangulation, and only unclamped does it
 /// reproduce linear functions. What is clamped is the triangle: one thinner than [`THINNEST`],
 /// whose cotangents would run to infinity, counts as equilateral.
-pub(super) fn cotangent_weights(points: &[Point], triangles: &[[u32; 3]], context: &Context) -> Result<Rows> {
+pub(super) fn cotangent_weights(points: &[Point], triangles: &[[u32; 3]], context: &Context) -> Result<SparseRows> {
     let stars = Stars::new(points.len(), triangles.iter().copied());
     let angles: Vec<_> = triangles.iter().map(|t| cotangents(t.map(|v| points[v as usize]))).collect();
-    let mut rows = Rows::new();
+    let mut rows = SparseRows::new();
     let mut row = Vec::new();
     for v in 0..points.len() {
         if v % CHUNK == 0 {
@@ -68,7 +68,7 @@ mod tests {
     use crate::generate::SplitMix64;
     use proptest::prelude::*;
 
-    fn weights(points: &[Point], triangles: &[[u32; 3]]) -> Rows {
+    fn weights(points: &[Point], triangles: &[[u32; 3]]) -> SparseRows {
         cotangent_weights(points, triangles, &Context::default()).unwrap()
     }
 

@@ -4,7 +4,7 @@ use super::cotangent::cotangent_weights;
 use super::harmonic::System;
 use super::krylov;
 use super::mean_value::mean_value_weights;
-use super::sparse::{Rows, Values};
+use super::sparse::{SparseRows, Values};
 use super::testing::{on_levels, real_polycubes, tet_box, tri_box, uneven};
 use crate::context::Context;
 use crate::map::morph;
@@ -66,7 +66,7 @@ fn record<const N: usize>(folder: &Path, name: &str, system: &System<N>) {
     println!("{{\"name\": \"{name}\", \"unknowns\": {}, \"seconds\": {seconds}}}", solution.len());
 }
 
-fn coordinates(matrix: &Rows) -> String {
+fn coordinates(matrix: &SparseRows) -> String {
     let size = matrix.len();
     let mut text = format!("%%MatrixMarket matrix coordinate real general\n{size} {size} {}\n", matrix.values().len());
     for i in 0..size {

@@ -1,7 +1,7 @@
 //! Extend values known at some vertices over the others so that each is the weighted mean of its neighbours.
 
 use super::krylov;
-use super::sparse::{Rows, Values, add_scaled};
+use super::sparse::{SparseRows, Values, add_scaled};
 use crate::context::Context;
 use crate::error::{Error, ErrorKind, Place, Result};
 
@@ -14,7 +14,7 @@ const KNOWN: u32 = u32::MAX;
 /// # Errors
 /// [`ErrorKind::Polycube`] naming a vertex no chain of unknowns joins to a known one; those of the solver.
 pub(crate) fn extend_harmonic(
-    weights: &Rows,
+    weights: &SparseRows,
     known: &[[bool; 3]],
     field: &mut [Values<3>],
     context: &Context,
@@ -32,7 +32,7 @@ pub(crate) fn extend_harmonic(
 
 /// The same for the axes listed, all with the same unknowns.
 fn extend<const N: usize>(
-    weights: &Rows,
+    weights: &SparseRows,
     known: &[[bool; 3]],
     axes: [usize; N],
     field: &mut [Values<3>],
@@ -53,7 +53,7 @@ pub(super) struct System<const N: usize> {
     /// The vertex of each row.
     unknowns: Vec<u32>,
     /// The Laplacian between the unknowns.
-    pub(super) matrix: Rows,
+    pub(super) matrix: SparseRows,
     /// What the known neighbours pull each unknown by.
     pub(super) sides: Vec<Values<N>>,
 }
@@ -63,7 +63,12 @@ impl<const N: usize> System<N> {
     ///
     /// # Errors
     /// [`ErrorKind::Polycube`] naming a vertex no chain of unknowns joins to a known one.
-    pub(super) fn new(weights: &Rows, known: &[[bool; 3]], axes: [usize; N], field: &[Values<3>]) -> Result<Self> {
+    pub(super) fn new(
+        weights: &SparseRows,
+        known: &[[bool; 3]],
+        axes: [usize; N],
+        field: &[Values<3>],
+    ) -> Result<Self> {
         let unknown = |v: usize| !known[v][axes[0]] && !weights.range(v).is_empty();
         let unknowns: Vec<u32> = (0..weights.len()).filter(|&v| unknown(v)).map(|v| v as u32).collect();
         let mut index = vec![KNOWN; weights.len()];
@@ -78,8 +83,8 @@ impl<const N: usize> System<N> {
 }
 
 /// The Laplacian between the unknowns.
-fn reduced(weights: &Rows, unknowns: &[u32], index: &[u32]) -> Rows {
-    let mut matrix = Rows::new();
+fn reduced(weights: &SparseRows, unknowns: &[u32], index: &[u32]) -> SparseRows {
+    let mut matrix = SparseRows::new();
     let mut row = Vec::new();
     for (i, &v) in unknowns.iter().enumerate() {
         let entries = weights.row(v as usize);
@@ -93,7 +98,7 @@ fn reduced(weights: &Rows, unknowns: &[u32], index: &[u32]) -> Rows {
 
 /// What the known neighbours pull each unknown by.
 fn right_hand_sides<const N: usize>(
-    weights: &Rows,
+    weights: &SparseRows,
     unknowns: &[u32],
     index: &[u32],
     axes: [usize; N],
@@ -110,7 +115,7 @@ fn right_hand_sides<const N: usize>(
 }
 
 /// Fails unless every connected set of unknowns has a known neighbour.
-fn anchored(weights: &Rows, unknowns: &[u32], index: &[u32], axis: usize) -> Result<()> {
+fn anchored(weights: &SparseRows, unknowns: &[u32], index: &[u32], axis: usize) -> Result<()> {
     let mut seen = vec![false; unknowns.len()];
     for (i, &v) in unknowns.iter().enumerate() {
         if !seen[i] && !spread(weights, i, unknowns, index, &mut seen) {
@@ -121,7 +126,7 @@ fn anchored(weights: &Rows, unknowns: &[u32], index: &[u32], axis: usize) -> Res
 }
 
 /// Marks the unknowns connected to unknown `first`; tells whether a known neighbour was met.
-fn spread(weights: &Rows, first: usize, unknowns: &[u32], index: &[u32], seen: &mut [bool]) -> bool {
+fn spread(weights: &SparseRows, first: usize, unknowns: &[u32], index: &[u32], seen: &mut [bool]) -> bool {
     let mut met = false;
     let mut stack = vec![first];
     seen[first] = true;

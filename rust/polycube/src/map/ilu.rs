@@ -1,7 +1,7 @@
 //! Incomplete factorisation of a sparse matrix, to precondition an iterative solver.
 
 use super::cotangent::CHUNK;
-use super::sparse::{Rows, Values, add_scaled};
+use super::sparse::{SparseRows, Values, add_scaled};
 use crate::context::Context;
 use crate::error::Result;
 
@@ -20,7 +20,7 @@ const SMALLEST_PIVOT: f64 = 1e-3;
 /// 1977); negative cotangents can spoil one, which is then replaced, at the price of some iterations.
 pub(super) struct Ilu {
     /// `L` without its unit diagonal, then `U`, on the pattern of `A`.
-    rows: Rows,
+    rows: SparseRows,
     /// Where the diagonal entry of each row lies.
     diagonal: Vec<usize>,
     /// One over each pivot.
@@ -29,7 +29,7 @@ pub(super) struct Ilu {
 
 impl Ilu {
     /// Factorises `a`, whose rows hold a positive diagonal entry. Time: entries × entries per row.
-    pub(super) fn new(a: &Rows, context: &Context) -> Result<Self> {
+    pub(super) fn new(a: &SparseRows, context: &Context) -> Result<Self> {
         let diagonal = (0..a.len()).map(|i| diagonal(a, i)).collect();
         let mut ilu = Self { rows: a.clone(), diagonal, inverse: Vec::with_capacity(a.len()) };
         let mut place = vec![usize::MAX; a.len()];
@@ -108,7 +108,7 @@ impl Ilu {
 }
 
 /// Where the diagonal entry of row `i` lies.
-fn diagonal(a: &Rows, i: usize) -> usize {
+fn diagonal(a: &SparseRows, i: usize) -> usize {
     let range = a.range(i);
     range.start + a.columns()[range].partition_point(|&j| (j as usize) < i)
 }
@@ -119,7 +119,7 @@ mod tests {
 
     #[test]
     fn a_tridiagonal_matrix_is_factorised_exactly() {
-        let mut a = Rows::new();
+        let mut a = SparseRows::new();
         for i in 0..20_u32 {
             let mut row = vec![(i, 2.5)];
             if i > 0 {

@@ -6,7 +6,7 @@
 //! memory traffic, by taking all right-hand sides through the matrix together.
 
 use super::ilu::Ilu;
-use super::sparse::{Rows, Values};
+use super::sparse::{SparseRows, Values};
 use crate::context::Context;
 use crate::error::{Error, ErrorKind, Result};
 
@@ -29,7 +29,7 @@ const ITERATIONS: usize = 2000;
 ///
 /// # Errors
 /// [`ErrorKind::Internal`] if the residual stays above 1e-6; [`ErrorKind::Cancelled`].
-pub(super) fn solve<const N: usize>(a: &Rows, b: &[Values<N>], context: &Context) -> Result<Vec<Values<N>>> {
+pub(super) fn solve<const N: usize>(a: &SparseRows, b: &[Values<N>], context: &Context) -> Result<Vec<Values<N>>> {
     let ilu = Ilu::new(a, context)?;
     let size = norms(b);
     let mut x = vec![[0.0; N]; b.len()];
@@ -51,7 +51,7 @@ pub(super) fn solve<const N: usize>(a: &Rows, b: &[Values<N>], context: &Context
 
 /// One run of the method, with a fresh shadow residual.
 struct Run<'a, const N: usize> {
-    a: &'a Rows,
+    a: &'a SparseRows,
     ilu: &'a Ilu,
     /// Norms of the right-hand sides.
     size: Values<N>,
@@ -72,7 +72,7 @@ struct Run<'a, const N: usize> {
 }
 
 impl<'a, const N: usize> Run<'a, N> {
-    fn new(a: &'a Rows, ilu: &'a Ilu, residual: Vec<Values<N>>, size: Values<N>) -> Self {
+    fn new(a: &'a SparseRows, ilu: &'a Ilu, residual: Vec<Values<N>>, size: Values<N>) -> Self {
         let zero = vec![[0.0; N]; residual.len()];
         let found = norms(&residual);
         Self {
@@ -151,7 +151,7 @@ impl<'a, const N: usize> Run<'a, N> {
     }
 }
 
-fn residual<const N: usize>(a: &Rows, b: &[Values<N>], x: &[Values<N>]) -> Vec<Values<N>> {
+fn residual<const N: usize>(a: &SparseRows, b: &[Values<N>], x: &[Values<N>]) -> Vec<Values<N>> {
     let mut r = vec![[0.0; N]; b.len()];
     a.multiply(x, &mut r);
     for (r, b) in r.iter_mut().zip(b) {
@@ -198,8 +198,8 @@ mod tests {
     use proptest::prelude::*;
 
     /// An unsymmetric M-matrix on a ring with random chords, grounded at every seventh row.
-    fn matrix(n: u32, random: &mut SplitMix64) -> Rows {
-        let mut a = Rows::new();
+    fn matrix(n: u32, random: &mut SplitMix64) -> SparseRows {
+        let mut a = SparseRows::new();
         for i in 0..n {
             let ends = [(i + 1) % n, (i + n - 1) % n, (random.unit() * f64::from(n)) as u32];
             let mut row: Vec<_> = ends.iter().filter(|&&j| j != i).map(|&j| (j, -random.unit())).collect();
@@ -235,7 +235,7 @@ mod tests {
 
     #[test]
     fn a_singular_system_is_an_error() {
-        let mut a = Rows::new();
+        let mut a = SparseRows::new();
         a.push(&mut vec![(0, 1.0), (1, -1.0)]);
         a.push(&mut vec![(0, -1.0), (1, 1.0)]);
         let error = solve(&a, &[[1.0], [1.0]], &Context::default()).unwrap_err();

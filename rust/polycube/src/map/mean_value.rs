@@ -1,7 +1,7 @@
 //! Mean value coordinates of the inner vertices of a tetrahedral mesh.
 
 use super::cotangent::CHUNK;
-use super::sparse::Rows;
+use super::sparse::SparseRows;
 use crate::context::Context;
 use crate::error::Result;
 use crate::mesh::{Point, Stars};
@@ -25,9 +25,9 @@ pub(super) fn mean_value_weights(
     tetrahedra: &[[u32; 4]],
     inner: &[bool],
     context: &Context,
-) -> Result<Rows> {
+) -> Result<SparseRows> {
     let stars = Stars::new(points.len(), tetrahedra.iter().copied());
-    let mut rows = Rows::new();
+    let mut rows = SparseRows::new();
     let mut row = Vec::new();
     for (v, &inner) in inner.iter().enumerate() {
         if v % CHUNK == 0 {
@@ -108,7 +108,7 @@ mod tests {
     use crate::mesh::{Cells, Mesh};
     use proptest::prelude::*;
 
-    fn rows(mesh: &Mesh, inner: &[bool]) -> Rows {
+    fn rows(mesh: &Mesh, inner: &[bool]) -> SparseRows {
         let Cells::Tetrahedra(t) = &mesh.cells else { panic!("not tetrahedra") };
         mean_value_weights(&mesh.points, t, inner, &Context::default()).unwrap()
     }

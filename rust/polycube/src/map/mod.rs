@@ -1,12 +1,8 @@
-//! Carry a mesh onto a new polycube structure, and judge the result.
+//! Carry a mesh onto a new polycube structure.
 //!
-//! [`morph`] solves the Laplace problem of the finalisation (paper, section 6); [`flipped`] lists
-//! the elements it turned over, [`distortion`] says how far one mesh is from a similarity of another.
+//! [`morph`] solves the Laplace problem of the finalisation (paper, section 6).
 
-mod check;
 mod cotangent;
-mod distortion;
-mod flipped;
 #[cfg(test)]
 mod for_bench;
 mod harmonic;
@@ -20,8 +16,6 @@ mod sparse;
 #[cfg(test)]
 pub(crate) mod testing;
 
-pub use distortion::{Distortion, distortion};
-pub use flipped::{Flipped, flipped};
 pub(crate) use harmonic::extend_harmonic;
 pub use morph::morph;
-pub(crate) use sparse::Rows;
+pub(crate) use sparse::SparseRows;

@@ -1,11 +1,11 @@
 //! Fit a polycube mesh into a new structure by a Laplace problem.
 
-use super::check::check_mesh;
 use super::cotangent::cotangent_weights;
 use super::harmonic::extend_harmonic;
 use super::mean_value::mean_value_weights;
 use crate::context::Context;
 use crate::error::{Error, ErrorKind, Place, Result};
+use crate::measure::check_mesh;
 use crate::mesh::{Face, Mesh, Point, Simplices};
 
 /// Moves the vertices of a polycube onto prescribed coordinates, the others with them, smoothly.
@@ -29,7 +29,7 @@ use crate::mesh::{Face, Mesh, Point, Simplices};
 ///   neighbours;
 /// - a vertex of no cell stays where it is, whatever `fixed` says.
 ///
-/// The answer may hold flipped elements: see [`flipped`](super::flipped()). Relative residual 1e-10
+/// The answer may hold flipped elements: see [`flipped`](crate::measure::flipped()). Relative residual 1e-10
 /// (down to 1e-6 where rounding forbids better). One thread, the same bits on every machine.
 /// A quarter of a second and 45 MB for 236,000 tetrahedra, a little more than linear; a surface
 /// with few large facets takes longer, about n^1.5: some seconds for 200,000 vertices.

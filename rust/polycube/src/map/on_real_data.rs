@@ -1,8 +1,9 @@
 //! The morph on real polycubes.
 
+use super::morph;
 use super::testing::{labels, on_levels, real_polycubes, uneven};
-use super::{distortion, flipped, morph};
 use crate::context::Context;
+use crate::measure::{distortion, flipped};
 use crate::mesh::{Mesh, Point};
 
 fn largest_step(mesh: &Mesh, points: &[Point]) -> f64 {

@@ -5,13 +5,13 @@ pub(crate) type Values<const N: usize> = [f64; N];
 
 /// A sparse matrix by rows; the columns of a row ascend.
 #[derive(Clone, Debug, Default, PartialEq)]
-pub(crate) struct Rows {
+pub(crate) struct SparseRows {
     start: Vec<usize>,
     columns: Vec<u32>,
     values: Vec<f64>,
 }
 
-impl Rows {
+impl SparseRows {
     /// A matrix without rows.
     pub(crate) fn new() -> Self {
         Self { start: vec![0], ..Self::default() }
@@ -93,7 +93,7 @@ mod tests {
 
     #[test]
     fn rows_sort_and_sum_their_entries() {
-        let mut rows = Rows::new();
+        let mut rows = SparseRows::new();
         rows.push(&mut vec![(2, 1.0), (0, 2.0), (2, 3.0)]);
         rows.push(&mut vec![]);
         rows.push(&mut vec![(2, 5.0)]);

@@ -1,7 +1,7 @@
 //! The corner tetrahedra whose shapes are optimised, each with the shape it should have.
 
-use super::quality::edges;
 use crate::error::{Error, ErrorKind, Place, Result};
+use crate::measure::edges;
 use crate::mesh::hexahedron::{CORNERS, EDGES, corner_tetrahedra};
 use crate::mesh::{Point, Stars};
 use nalgebra::{Matrix3, Vector3};
@@ -12,7 +12,8 @@ use rayon::prelude::*;
 pub enum Measure {
     /// Scaled Jacobian of the three edges: 1 where they are perpendicular, whatever their lengths.
     ScaledJacobian,
-    /// Mean ratio `3 det(J)^(2/3) / tr(Jᵀ J)` of the map from the reference, with the sign of `det J`: 1 for similarities.
+    /// Mean ratio `3 det(J)^(2/3) / tr(Jᵀ J)` of the map from the reference, with the sign of `det J`: 1 for
+    /// similarities.
     MeanRatio,
 }
 
@@ -70,8 +71,8 @@ const WORST_REST: f64 = 0.02;
 impl Elements {
     /// Tetrahedra that should look as in `rest`, each with its rest volume as weight (Garanzha et al. 2021).
     ///
-    /// For a polycube map the cells are those of both meshes, `rest` is the shape, and the optimised points
-    /// are those of the polycube. A rest tetrahedron that is inverted or all but flat is replaced by a regular one of the same
+    /// For a polycube map the cells are those of both meshes, `rest` is the shape, and the optimised points are those
+    /// of the polycube. A rest tetrahedron that is inverted or all but flat is replaced by a regular one of the same
     /// mean edge length, so bad input does not spoil the map.
     ///
     /// # Errors
@@ -94,11 +95,12 @@ impl Elements {
         Self::new(corners(hexes), shapes, vec![1.0; 8 * hexes.len()], 8, Measure::ScaledJacobian)
     }
 
-    /// Hexahedra that should be boxes with about the edge lengths they have in `points`; as [`cubes`](Self::cubes) otherwise.
+    /// Hexahedra that should be boxes with about the edge lengths they have in `points`; as [`cubes`](Self::cubes)
+    /// otherwise.
     ///
-    /// The lengths are averaged over parallel edges, `smoothing` times over the neighbours as well (3 is a good number), so
-    /// layers that are thin on purpose stay thin, while single odd edges do not count.
-    /// O(n log n) for sorting the edges.
+    /// The lengths are averaged over parallel edges, `smoothing` times over the neighbours as well (3 is a good
+    /// number), so layers that are thin on purpose stay thin, while single odd edges do not count. O(n log n) for
+    /// sorting the edges.
     ///
     /// # Errors
     /// [`ErrorKind::Mesh`] naming the cell that has a vertex outside `points`.
@@ -182,7 +184,7 @@ impl Elements {
     pub(super) fn quality(&self, i: usize, points: &[Point]) -> f64 {
         let edges = edges(points, self.corners[i]);
         match self.measure {
-            Measure::ScaledJacobian => super::quality::corner_jacobian(&edges),
+            Measure::ScaledJacobian => crate::measure::corner_jacobian(&edges),
             Measure::MeanRatio => mean_ratio(&edges, &self.references[i]),
         }
     }

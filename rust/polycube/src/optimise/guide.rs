@@ -1,8 +1,8 @@
 //! What surface vertices slide on: any closest-point map, a triangle surface, or a feature curve.
 
-use super::nearest::Nearest;
 use crate::error::{Error, ErrorKind, Place, Result};
 use crate::mesh::Point;
+use crate::spatial::Nearest;
 use nalgebra::Vector3;
 
 /// The directions in which a vertex may move on a guide.
@@ -52,7 +52,8 @@ pub struct SurfaceGuide {
 }
 
 impl SurfaceGuide {
-    /// The surface of `triangles`; normals are interpolated between the vertices, so that sliding is smooth across edges.
+    /// The surface of `triangles`; normals are interpolated between the vertices, so that sliding is smooth across
+    /// edges.
     ///
     /// # Errors
     /// [`ErrorKind::Mesh`] when there is no triangle or one has a vertex that is missing or not finite.

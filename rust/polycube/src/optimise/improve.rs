@@ -4,7 +4,7 @@ use super::Settings;
 use super::assembly::Census;
 use super::energy::Law;
 use super::lbfgs::Limits;
-use super::problem::Problem;
+use super::optimisation::Optimisation;
 use crate::context::Context;
 use crate::error::Result;
 use crate::mesh::Point;
@@ -31,10 +31,10 @@ pub(super) struct Improved {
     pub(super) safe: Vec<Point>,
 }
 
-/// Minimises the energy with a growing penalty on the elements near the worst, from `points`, which must be on the guides with
-/// no element inverted; none is afterwards.
+/// Minimises the energy with a growing penalty on the elements near the worst, from `points`, which must be on the
+/// guides with no element inverted; none is afterwards.
 pub(super) fn improve(
-    problem: &mut Problem,
+    problem: &mut Optimisation,
     points: &[Point],
     settings: &Settings,
     context: &Context,
@@ -69,7 +69,7 @@ fn law(settings: &Settings, round: usize) -> Law {
 
 /// One round from `points`.
 fn step(
-    problem: &mut Problem,
+    problem: &mut Optimisation,
     points: &mut Vec<Point>,
     mut law: Law,
     limits: Limits,

@@ -1,17 +1,19 @@
 //! Removes inverted elements and raises the worst quality by moving vertices.
 //!
-//! [`Elements`] say what should look like what, [`Freedom`]s and [`Guide`]s how vertices may move, and [`optimise`] moves them in
-//! three phases:
+//! [`Elements`] say what should look like what, [`Freedom`]s and [`Guide`]s how vertices may move, and [`optimise`]
+//! moves them in three phases:
 //!
-//! 1. **Untangle** (only where something is inverted): minimises the regularised energy of Garanzha et al., "Foldover-free
-//!    maps in 50 lines of code" (ACM TOG 2021), for falling ε, by L-BFGS. Only what is near inverted elements moves at first: all the
-//!    rest would have to be solved as well, time and again, and may pull the other way.
-//! 2. **Improve**: minimises the same energy without regularisation, an infinite barrier against inversion, together with a
-//!    growing power of the badness of the elements near the worst one.
+//! 1. **Untangle** (only where something is inverted): minimises the regularised energy of Garanzha et al.,
+//!    "Foldover-free maps in 50 lines of code" (ACM TOG 2021), for falling ε, by L-BFGS. Only what is near inverted
+//!    elements moves at first: all the rest would have to be solved as well, time and again, and may pull the other
+//!    way.
+//! 2. **Improve**: minimises the same energy without regularisation, an infinite barrier against inversion, together
+//!    with a growing power of the badness of the elements near the worst one.
 //! 3. **Polish**: pattern search at the vertices of the worst elements.
 //!
-//! Sliding vertices move along the tangents of their guides and are put back on them after every round; where that spoils an element,
-//! its vertices go back. Everything is a function of the input alone, to the bit, for any number of threads.
+//! Sliding vertices move along the tangents of their guides and are put back on them after every round; where that
+//! spoils an element, its vertices go back. Everything is a function of the input alone, to the bit, for any number of
+//! threads.
 
 mod assembly;
 mod elements;
@@ -22,11 +24,10 @@ mod guide;
 mod improve;
 mod lanes;
 mod lbfgs;
-mod near;
-mod nearest;
+mod local;
+
+mod optimisation;
 mod polish;
-mod problem;
-mod quality;
 mod region;
 #[cfg(test)]
 mod tests;
@@ -35,18 +36,13 @@ mod untangle;
 pub use elements::{Elements, Measure};
 pub use freedom::Freedom;
 pub use guide::{Contact, CurveGuide, Guide, SurfaceGuide, Tangent};
-pub(crate) use nearest::Nearest;
-pub use quality::{
-    BARS, Statistics, cell_qualities, hexahedron_volume, quadrilateral_scaled_jacobian, scaled_jacobian,
-    scaled_jacobians, statistics, tetrahedron_scaled_jacobian, tetrahedron_volume,
-};
 
 use crate::context::Context;
 use crate::error::{Error, ErrorKind, Place, Result};
 use crate::mesh::Point;
 use freedom::Constraints;
 use improve::{Improved, improve};
-use problem::Problem;
+use optimisation::Optimisation;
 use untangle::Effort;
 
 /// What moves to untangle a mesh.
@@ -72,8 +68,8 @@ pub struct Settings {
     pub untangle_rounds: usize,
     /// Most iterations of a round of untangling; 100 by default.
     pub untangle_iterations: usize,
-    /// Least share of the energy that a round of untangling is taken to gain, in `0..1` (σ of Garanzha et al.); the larger, the
-    /// faster ε falls; 0.1 by default.
+    /// Least share of the energy that a round of untangling is taken to gain, in `0..1` (σ of Garanzha et al.); the
+    /// larger, the faster ε falls; 0.1 by default.
     pub least_gain: f64,
     /// Rounds of improvement, with exponents growing from 2 to 64; 0 to leave the mesh untangled only; 6 by default.
     pub improve_rounds: usize,
@@ -125,20 +121,20 @@ pub struct Report {
     pub largest_move: f64,
 }
 
-/// Moves `points` until no element is inverted and the worst is as good as can be had. `freedom` says for each point how it may move,
-/// `guides` what [`Freedom::Guided`] ones slide on.
+/// Moves `points` until no element is inverted and the worst is as good as can be had. `freedom` says for each point
+/// how it may move, `guides` what [`Freedom::Guided`] ones slide on.
 ///
-/// Fixed coordinates keep their bits, and sliding points end on their guides. If the input, put on its guides, has no inverted
-/// element, neither has the result, and its worst quality is at least that of the input put on its guides. If it has, they are removed
-/// as far as the settings and the boundary allow; [`Report::inverted_after`] tells. References are scaled to the mean size
-/// of the elements.
+/// Fixed coordinates keep their bits, and sliding points end on their guides. If the input, put on its guides, has no
+/// inverted element, neither has the result, and its worst quality is at least that of the input put on its guides. If
+/// it has, they are removed as far as the settings and the boundary allow; [`Report::inverted_after`] tells. References
+/// are scaled to the mean size of the elements.
 ///
 /// Each iteration takes linear time on all threads of the current rayon pool; about 500 bytes an element.
 ///
 /// # Errors
-/// [`ErrorKind::Mismatch`] when there is not one freedom per point; [`ErrorKind::Option`] for a setting out of range or a missing guide;
-/// [`ErrorKind::Mesh`] for coordinates that are not finite or vertices that do not exist; [`ErrorKind::Cancelled`]. The points are
-/// unchanged after an error.
+/// [`ErrorKind::Mismatch`] when there is not one freedom per point; [`ErrorKind::Option`] for a setting out of range or
+/// a missing guide; [`ErrorKind::Mesh`] for coordinates that are not finite or vertices that do not exist;
+/// [`ErrorKind::Cancelled`]. The points are unchanged after an error.
 pub fn optimise(
     points: &mut Vec<Point>,
     elements: &Elements,
@@ -152,7 +148,7 @@ pub fn optimise(
     let mut elements = elements.clone();
     elements.match_size(points);
     context.check()?;
-    let mut problem = Problem::new(&elements, constraints, points.len());
+    let mut problem = Optimisation::new(&elements, constraints, points.len());
     context.check()?;
     let before = problem.assembly.census(points);
     let mut moved = points.clone();
@@ -174,7 +170,7 @@ pub fn optimise(
 }
 
 /// All phases from `points`.
-fn run(problem: &mut Problem, points: &mut Vec<Point>, settings: &Settings, context: &Context) -> Result<()> {
+fn run(problem: &mut Optimisation, points: &mut Vec<Point>, settings: &Settings, context: &Context) -> Result<()> {
     context.check()?;
     problem.constraints.project(points);
     let mut valid = problem.assembly.census(points).inverted == 0;
@@ -188,17 +184,22 @@ fn run(problem: &mut Problem, points: &mut Vec<Point>, settings: &Settings, cont
 }
 
 /// The first phase; whether no element is inverted after it.
-fn untangle(problem: &mut Problem, points: &mut Vec<Point>, settings: &Settings, context: &Context) -> Result<bool> {
+fn untangle(
+    problem: &mut Optimisation,
+    points: &mut Vec<Point>,
+    settings: &Settings,
+    context: &Context,
+) -> Result<bool> {
     let scope = settings.scope;
     let before = problem.assembly.census(points).inverted;
     if scope != Scope::Whole {
-        let left = near::untangle(problem, points, settings, &context.stage("untangle", 0.0, 0.2))?;
+        let left = local::untangle_near(problem, points, settings, &context.stage("untangle", 0.0, 0.2))?;
         if left < before || scope == Scope::Near {
             return Ok(left == 0);
         }
     }
     let start = points.clone();
-    untangle::untangle(problem, points, &Effort::new(settings), &context.stage("untangle", 0.2, 1.0))?;
+    untangle::untangle_all(problem, points, &Effort::new(settings), &context.stage("untangle", 0.2, 1.0))?;
     let left = problem.assembly.census(points).inverted;
     if left > before {
         points.copy_from_slice(&start);
@@ -207,9 +208,9 @@ fn untangle(problem: &mut Problem, points: &mut Vec<Point>, settings: &Settings,
     Ok(left == 0)
 }
 
-/// The phases after untangling. What is good for most elements at first lowers the worst quality, which polishing makes good
-/// again; only where it does not, the best state with a worst quality as in `points` is taken.
-fn raise(problem: &mut Problem, points: &mut Vec<Point>, settings: &Settings, context: &Context) -> Result<()> {
+/// The phases after untangling. What is good for most elements at first lowers the worst quality, which polishing makes
+/// good again; only where it does not, the best state with a worst quality as in `points` is taken.
+fn raise(problem: &mut Optimisation, points: &mut Vec<Point>, settings: &Settings, context: &Context) -> Result<()> {
     let least = problem.assembly.census(points).worst;
     let Improved { best, safe } = improve(problem, points, settings, &context.stage("improve", 0.4, 0.9))?;
     let fair = improve::score(&problem.assembly.census(&safe));

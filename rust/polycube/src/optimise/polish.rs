@@ -2,9 +2,9 @@
 
 use super::elements::Elements;
 use super::freedom::Constraints;
-use super::quality::edges;
 use crate::context::Context;
 use crate::error::Result;
+use crate::measure::edges;
 use crate::mesh::{Point, Stars};
 use nalgebra::Vector3;
 
@@ -23,8 +23,8 @@ fn directions() -> impl Iterator<Item = Vector3<f64>> {
     all.filter(|d| *d != Vector3::zeros()).map(|d| d.normalize())
 }
 
-/// Never lowers the worst quality around any vertex it moves; keeps sliding vertices on their guides. Goes on for longer than
-/// the given rounds while the worst quality is below `wanted`.
+/// Never lowers the worst quality around any vertex it moves; keeps sliding vertices on their guides. Goes on for
+/// longer than the given rounds while the worst quality is below `wanted`.
 pub(super) fn polish(
     elements: &Elements,
     constraints: &Constraints,
@@ -100,8 +100,8 @@ fn better(elements: &Elements, constraints: &Constraints, star: &[u32], points: 
     at != start
 }
 
-/// The worst quality in a star, or one of at most `bar` once it is seen. Puts that element first: it may well be the worst
-/// next time.
+/// The worst quality in a star, or one of at most `bar` once it is seen. Puts that element first: it may well be the
+/// worst next time.
 fn worst(elements: &Elements, star: &mut [u32], points: &[Point], bar: f64) -> f64 {
     let mut worst = 1.0_f64;
     for i in 0..star.len() {

@@ -2,6 +2,7 @@
 
 use super::*;
 use crate::generate::{Cuboid, Example, SplitMix64, Voxels, example};
+use crate::measure::{cell_qualities, statistics};
 use crate::mesh::{CellKind, Cells, Mesh};
 use nalgebra::Vector3;
 use std::sync::atomic::{AtomicUsize, Ordering};
@@ -199,7 +200,8 @@ fn results_do_not_depend_on_the_number_of_threads() {
     assert_eq!(one, result(3));
 }
 
-/// Optimises a ball and cancels at the step `last` that is reported, from 0: what came of it and how many were reported.
+/// Optimises a ball and cancels at the step `last` that is reported, from 0: what came of it and how many were
+/// reported.
 fn cancelled_at(last: usize, mesh: &mut Mesh, freedom: &[Freedom]) -> (Result<Report>, usize) {
     let elements = Elements::cubes(hexes(mesh));
     let (slot, steps): (Arc<OnceLock<Context>>, Arc<AtomicUsize>) = Default::default();

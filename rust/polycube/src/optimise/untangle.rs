@@ -3,7 +3,7 @@
 use super::Settings;
 use super::energy::Law;
 use super::lbfgs::Limits;
-use super::problem::Problem;
+use super::optimisation::Optimisation;
 use crate::context::Context;
 use crate::error::Result;
 use crate::mesh::Point;
@@ -27,7 +27,8 @@ pub(super) struct Effort {
     pub(super) iterations: usize,
     /// Least share of the energy that a round is taken to gain (σ of Garanzha et al.): the larger, the faster ε falls.
     pub(super) least_gain: f64,
-    /// Where so many rounds leave more than [`SLOW`] of the cells inverted, there is no room, and no more rounds are made.
+    /// Where so many rounds leave more than [`SLOW`] of the cells inverted, there is no room, and no more rounds are
+    /// made.
     pub(super) patience: usize,
 }
 
@@ -39,10 +40,10 @@ impl Effort {
     }
 }
 
-/// Minimises the regularised energy for falling ε until no element is inverted or the rounds are used up. Returns whether
-/// none is. Sliding vertices are on their guides before and after.
-pub(super) fn untangle(
-    problem: &mut Problem,
+/// Minimises the regularised energy for falling ε until no element is inverted or the rounds are used up. Returns
+/// whether none is. Sliding vertices are on their guides before and after.
+pub(super) fn untangle_all(
+    problem: &mut Optimisation,
     points: &mut Vec<Point>,
     effort: &Effort,
     context: &Context,
@@ -70,8 +71,8 @@ pub(super) fn untangle(
     Ok(false)
 }
 
-/// The schedule of Garanzha et al. 2021, equation 8: with it finitely many rounds suffice if each is solved well. `sigma` is the share
-/// of the energy that the last one gained.
+/// The schedule of Garanzha et al. 2021, equation 8: with it finitely many rounds suffice if each is solved well.
+/// `sigma` is the share of the energy that the last one gained.
 fn next_epsilon(epsilon: f64, least: f64, sigma: f64) -> f64 {
     let root = (epsilon * epsilon + least * least).sqrt();
     let chi = if least > 0.0 { 0.5 * (least + root) } else { 0.5 * epsilon * epsilon / (root - least) };

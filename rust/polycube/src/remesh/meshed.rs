@@ -2,14 +2,15 @@
 
 use crate::context::Context;
 use crate::error::Result;
+use crate::measure::Quality;
+use crate::measure::hausdorff::{diagonal, hausdorff};
 use crate::mesh::Mesh;
 use crate::remesh::fit::{Aim, Improved};
-use crate::remesh::hausdorff::hausdorff;
+use crate::remesh::map::LatticeMap;
 use crate::remesh::mesher::{Hexes, Layout, Quads, Remesher};
 use crate::remesh::options::RemeshOptions;
-use crate::remesh::report::{Stages, diagonal};
 use crate::remesh::select::{CoarseMesh, finish};
-use crate::simplify::Simplified;
+use crate::remesh::stages::Stages;
 use std::time::Instant;
 
 /// The meshes before they are judged.
@@ -17,13 +18,10 @@ pub(crate) struct Meshed {
     pub(crate) layout: Layout,
     pub(crate) quads: Quads,
     pub(crate) hexes: Option<Hexes>,
-    pub(crate) scaled_jacobian: Vec<f64>,
-    /// How many of them are not positive.
-    pub(crate) inverted: usize,
-    /// The worst; 1 where there are none.
-    pub(crate) worst: f64,
-    /// How far the shape is from the surface; 0 if it is within the bound, as far as could be seen, or, without hexahedra, within the
-    /// length of a quadrilateral's side.
+    /// That of the hexahedra; of no cell without them.
+    pub(crate) quality: Quality,
+    /// How far the shape is from the surface; 0 if it is within the bound, as far as could be seen, or, without
+    /// hexahedra, within the length of a quadrilateral's side.
     pub(crate) far: f64,
     /// Vertices that had to leave their corners and edges.
     pub(crate) released: usize,
@@ -36,13 +34,13 @@ pub(crate) struct Meshed {
 impl Meshed {
     /// How much of it is the wrong way round: of hexahedra, or of the map where there are none.
     pub(crate) fn bad(&self) -> usize {
-        self.inverted + self.folded
+        self.quality.inverted + self.folded
     }
 }
 
 /// The quadrilaterals and patches of a surface alone.
 pub(crate) fn mesh_surface(
-    map: &Simplified,
+    map: &LatticeMap,
     shape: &Mesh,
     folded: usize,
     stages: &mut Stages,
@@ -52,29 +50,18 @@ pub(crate) fn mesh_surface(
     let remesher = Remesher::new(map, shape, &context.stage("mesh", 0.0, 0.5))?;
     let quads = remesher.quads(&context.stage("mesh", 0.5, 0.8))?;
     let points = remesher.surface_points(&context.stage("mesh", 0.8, 1.0))?.points;
-    let layout = remesher.layout(&points, 0)?;
+    let layout = Layout { blocks: None, ..remesher.layout(&points, 0)? };
     // A distorted map may be one to one and still lead quadrilaterals astray.
-    let distance = if quads.inverted() > 0 { hausdorff(&quads.mesh, shape, context)? } else { 0.0 };
+    let distance = if quads.quality().inverted > 0 { hausdorff(&quads.mesh, shape, context)? } else { 0.0 };
     let far = if distance > quads.mean_side() { distance } else { 0.0 };
     stages.mesh += start.elapsed().as_secs_f64();
-    let scaled_jacobian = Vec::new();
-    Ok(Meshed {
-        layout,
-        quads,
-        hexes: None,
-        scaled_jacobian,
-        inverted: 0,
-        worst: 1.0,
-        far,
-        released: 0,
-        spaced: false,
-        folded,
-    })
+    let quality = Quality::new(Vec::new());
+    Ok(Meshed { layout, quads, hexes: None, quality, far, released: 0, spaced: false, folded })
 }
 
 /// The hexahedra of a solid with the quadrilaterals and patches of their surface.
 pub(crate) fn mesh_volume(
-    map: &Simplified,
+    map: &LatticeMap,
     shape: &Mesh,
     coarse: Option<CoarseMesh>,
     options: &RemeshOptions,
@@ -97,22 +84,7 @@ pub(crate) fn mesh_volume(
     context.tick(0.3)?;
     let layout = remesher.layout(&hexes.mesh.points, options.padding)?;
     context.tick(0.7)?;
-    let cells = hexes.cells();
-    let scaled_jacobian: Vec<f64> =
-        cells.iter().map(|c| crate::optimise::scaled_jacobian(&hexes.mesh.points, c)).collect();
-    let inverted = scaled_jacobian.iter().filter(|q| q.is_nan() || **q <= 0.0).count();
-    let worst = scaled_jacobian.iter().copied().fold(1.0, f64::min);
+    let quality = hexes.quality();
     context.tick(1.0)?;
-    Ok(Meshed {
-        layout,
-        quads,
-        hexes: Some(hexes),
-        scaled_jacobian,
-        inverted,
-        worst,
-        far,
-        released,
-        spaced: false,
-        folded: 0,
-    })
+    Ok(Meshed { layout, quads, hexes: Some(hexes), quality, far, released, spaced: false, folded: 0 })
 }

@@ -6,9 +6,10 @@ use crate::layout::Objective;
 use crate::remesh::meshed::{Meshed, mesh_surface, mesh_volume};
 use crate::remesh::mesher::{Hexes, Layout, Quads};
 use crate::remesh::options::RemeshOptions;
-use crate::remesh::report::{RemeshReport, Stages, measure};
+use crate::remesh::report::{RemeshReport, measure};
 use crate::remesh::select::{Candidate, Candidates, GOOD, Verdict, WORTH, Wrong};
-use crate::simplify::{self, Input, Simplified, simplify, untangle};
+use crate::remesh::stages::Stages;
+use crate::simplify::{self, Input, Simplified, simplify, untangle_morphed};
 use std::time::Instant;
 
 /// Meshes of a shape and the block structure that they have.
@@ -22,8 +23,6 @@ pub struct Remeshed {
     pub quads: Quads,
     /// The volume, unless only the surface was asked for.
     pub hexes: Option<Hexes>,
-    /// The scaled Jacobian of each hexahedron.
-    pub scaled_jacobian: Vec<f64>,
     /// What was done and how good it is.
     pub report: RemeshReport,
 }
@@ -31,10 +30,11 @@ pub struct Remeshed {
 /// Simplifies a polycube and meshes its shape with the block structure found (paper, sections 6 and 7).
 ///
 /// The map from shape to polycube is made one to one on every facet; the lattice of the wanted size is mapped back
-/// through it, padded, and optimised with the surface sliding on the shape until no hexahedron is inverted and the worst is
-/// as good as can be had; where the mesh cuts off more of the shape than the bound, surface vertices are put there.
-/// Levels are spaced by the shape, unless the scale is given. Where inverted hexahedra remain or the surface is farther from the shape than asked for, the result
-/// is given all the same and the report says so. Without a shape the polycube itself is meshed.
+/// through it, padded, and optimised with the surface sliding on the shape until no hexahedron is inverted and the
+/// worst is as good as can be had; where the mesh cuts off more of the shape than the bound, surface vertices are put
+/// there. Levels are spaced by the shape, unless the scale is given. Where inverted hexahedra remain or the surface is
+/// farther from the shape than asked for, the result is given all the same and the report says so. Without a shape the
+/// polycube itself is meshed.
 ///
 /// The result is the same for any number of threads.
 ///
@@ -50,14 +50,15 @@ pub struct Remeshed {
 /// let meshes = remesh(&input, &options, &Context::default())?;
 ///
 /// let hexes = meshes.hexes.expect("`surface_only` alone leaves them out");
-/// assert_eq!(hexes.mesh.cells.len(), meshes.scaled_jacobian.len());
+/// assert_eq!(hexes.quality().inverted, 0);
 /// assert_eq!(meshes.report.inverted, 0);
 /// # Ok::<(), polycube::Error>(())
 /// ```
 ///
 /// # Errors
-/// Those of [`simplify()`], [`scale_for`](super::scale_for()), [`Remesher`] and [`optimise`](crate::optimise::optimise()); [`ErrorKind::Option`] for any
-/// option out of its range, before anything is done, and for a size that takes more hexahedra than [`MOST_HEXES`](super::MOST_HEXES); [`ErrorKind::Cancelled`].
+/// Those of [`simplify()`], [`scale_for`](super::scale_for()), [`Remesher`] and
+/// [`optimise`](crate::optimise::optimise()); [`ErrorKind::Option`] for any option out of its range, before anything is
+/// done, and for a size that takes more hexahedra than [`MOST_HEXES`](super::MOST_HEXES); [`ErrorKind::Cancelled`].
 pub fn remesh(input: &Input, options: &RemeshOptions, context: &Context) -> Result<Remeshed> {
     options.check()?;
     let start = Instant::now();
@@ -73,13 +74,14 @@ pub fn remesh(input: &Input, options: &RemeshOptions, context: &Context) -> Resu
     let shape = input.shape.unwrap_or(input.polycube);
     untangle_volume(&mut simplified, input, &context.stage("map", 0.9, 0.95))?;
     let report = measure(&simplified, &meshed, shape, options, stages, &context.stage("measure", 0.95, 1.0))?;
-    let Meshed { layout, quads, hexes, scaled_jacobian, .. } = meshed;
-    let mut result = Remeshed { simplified, layout, quads, hexes, scaled_jacobian, report };
+    let Meshed { layout, quads, hexes, .. } = meshed;
+    let mut result = Remeshed { simplified, layout, quads, hexes, report };
     result.report.set_seconds(seconds());
     Ok(result)
 }
 
-/// How the polycube is simplified: for hexahedra it is padded blocks that count, whatever the cells of the polycube are.
+/// How the polycube is simplified: for hexahedra it is padded blocks that count, whatever the cells of the polycube
+/// are.
 fn simplifying(options: &RemeshOptions) -> simplify::Options {
     let blocks = (!options.surface_only).then_some(Objective::BlocksPadded);
     let objective = options.simplify.objective.or(blocks);
@@ -98,7 +100,7 @@ impl Made {
         match &self.meshed {
             meshed if meshed.bad() > 0 => Some(Wrong::Inverted),
             Meshed { far, .. } if *far > 0.0 => Some(Wrong::Far),
-            Meshed { worst, .. } if *worst < GOOD - WORTH => Some(Wrong::Poor),
+            Meshed { quality, .. } if quality.worst < GOOD - WORTH => Some(Wrong::Poor),
             _ => None,
         }
     }
@@ -109,12 +111,11 @@ impl Made {
 
     /// Worst and average scaled Jacobian in sum, the worst as far as it is not good.
     fn value(&self) -> f64 {
-        let all = &self.meshed.scaled_jacobian;
-        self.meshed.worst.min(GOOD) + all.iter().sum::<f64>() / all.len().max(1) as f64
+        self.meshed.quality.worst.min(GOOD) + self.meshed.quality.mean
     }
 
-    /// Whether it is rather to be had than `other`: one with fewer inverted hexahedra, then one nearer to the shape, then the one with
-    /// fewer blocks, unless the other is clearly better.
+    /// Whether it is rather to be had than `other`: one with fewer inverted hexahedra, then one nearer to the shape,
+    /// then the one with fewer blocks, unless the other is clearly better.
     fn is_better(&self, other: &Self) -> bool {
         let rank = |made: &Self| (made.meshed.bad(), made.meshed.far);
         let more = if self.blocks() > other.blocks() { WORTH } else { -WORTH };
@@ -122,7 +123,8 @@ impl Made {
     }
 }
 
-/// The first mesh that is uninverted, good, and as near to the shape as asked for, else the best of those that were tried.
+/// The first mesh that is uninverted, good, and as near to the shape as asked for, else the best of those that were
+/// tried.
 fn best(
     candidates: &mut Candidates,
     options: &RemeshOptions,
@@ -162,7 +164,7 @@ fn untangle_volume(simplified: &mut Simplified, input: &Input, context: &Context
     let shape = input.shape.unwrap_or(input.polycube);
     let Simplified { input: polycube, polycube: Some(mesh), report, .. } = simplified else { return Ok(()) };
     if mesh.cells.is_volume() && !report.flipped.cells.is_empty() {
-        untangle(polycube, mesh, shape, context)?;
+        untangle_morphed(polycube, mesh, shape, context)?;
     }
     context.tick(1.0)?;
     report.rejudge(input, polycube, mesh)

@@ -2,13 +2,13 @@
 
 use crate::context::Context;
 use crate::error::Result;
+use crate::measure::hausdorff::{diagonal, hausdorff};
+use crate::measure::{BARS, Quality, base_complex, cell_qualities, statistics};
 use crate::mesh::{CellKind, Mesh};
-use crate::optimise::{BARS, cell_qualities, statistics};
-use crate::remesh::base_complex::base_complex;
-use crate::remesh::hausdorff::hausdorff;
 use crate::remesh::meshed::Meshed;
 use crate::remesh::mesher::Hexes;
 use crate::remesh::options::RemeshOptions;
+use crate::remesh::stages::Stages;
 use crate::simplify::{self, Note, Simplified};
 
 /// More cells than this are not advised.
@@ -19,19 +19,19 @@ pub const MOST_LISTED: usize = 1000;
 /// What was done, for people and programs: what [`simplify::Report`] says and how good the meshes are.
 #[derive(Clone, Debug, PartialEq, serde::Serialize)]
 pub struct RemeshReport {
-    /// What the simplification did, with the seconds of all stages of the remeshing. Scale, displacement and distortion are those on the
-    /// even lattice, also where the levels were [`spaced`](Self::spaced) after that.
+    /// What the simplification did, with the seconds of all stages of the remeshing. Scale, displacement and distortion
+    /// are those on the even lattice, also where the levels were [`spaced`](Self::spaced) after that.
     #[serde(flatten)]
     pub simplify: simplify::Report,
-    /// Whether the levels were spaced by the shape: as many lattice steps between two as its edges there are long. A lattice step is then
-    /// no fixed length on the polycube.
+    /// Whether the levels were spaced by the shape: as many lattice steps between two as its edges there are long. A
+    /// lattice step is then no fixed length on the polycube.
     pub spaced: bool,
     /// Number of quadrilaterals.
     pub quads: usize,
     /// Quadrilaterals whose scaled Jacobian is not positive.
     pub inverted_quads: usize,
-    /// For a surface alone: how many triangles of its map onto the polycube are turned over, where more than one in a thousand is; 0
-    /// otherwise. Quadrilaterals around them lie wrong.
+    /// For a surface alone: how many triangles of its map onto the polycube are turned over, where more than one in a
+    /// thousand is; 0 otherwise. Quadrilaterals around them lie wrong.
     pub folded: usize,
     /// Number of hexahedra; 0 for a surface alone.
     pub hexes: usize,
@@ -39,7 +39,8 @@ pub struct RemeshReport {
     pub hex_blocks: usize,
     /// Padding layers.
     pub padding: usize,
-    /// Vertices that left corners and edges of the polycube, where hexahedra were inverted otherwise; they lie on the shape.
+    /// Vertices that left corners and edges of the polycube, where hexahedra were inverted otherwise; they lie on the
+    /// shape.
     pub released: usize,
     /// Hexahedra whose scaled Jacobian is not positive.
     pub inverted: usize,
@@ -49,7 +50,7 @@ pub struct RemeshReport {
     pub min_sj: Option<f64>,
     /// Mean scaled Jacobian; nothing without hexahedra.
     pub avg_sj: Option<f64>,
-    /// Hexahedra by scaled Jacobian, see [`Statistics`](crate::optimise::Statistics).
+    /// Hexahedra by scaled Jacobian, see [`Statistics`](crate::measure::Statistics).
     pub histogram: [u32; BARS],
     /// Volume of the hexahedra, in cubed units of the shape.
     pub volume: f64,
@@ -78,23 +79,6 @@ pub struct InvertedCell {
     pub at: [f64; 3],
 }
 
-/// Time spent in each stage, in seconds.
-#[derive(Clone, Copy, Debug, Default, PartialEq, serde::Serialize)]
-pub struct Stages {
-    /// Simplifying, and placing the levels at the wanted size.
-    pub simplify: f64,
-    /// Untangling the map.
-    pub map: f64,
-    /// Meshing.
-    pub mesh: f64,
-    /// Optimising the hexahedra.
-    pub optimise: f64,
-    /// Measuring the result.
-    pub measure: f64,
-    /// All of it, without files.
-    pub total: f64,
-}
-
 /// Judges the meshes.
 pub(crate) fn measure(
     simplified: &Simplified,
@@ -117,14 +101,14 @@ pub(crate) fn measure(
         simplify: simplified.report.clone(),
         spaced: meshed.spaced,
         quads: meshed.quads.mesh.cells.len(),
-        inverted_quads: meshed.quads.inverted(),
+        inverted_quads: meshed.quads.quality().inverted,
         folded: meshed.folded,
         hexes: found.cells,
         hex_blocks: meshed.hexes.as_ref().map_or(Ok(0), |h| count_blocks(h, &counting))?,
         padding: options.padding,
         released: meshed.released,
         inverted: found.inverted,
-        inverted_cells: meshed.hexes.as_ref().map_or_else(Vec::new, |h| inverted(h, &meshed.scaled_jacobian)),
+        inverted_cells: meshed.hexes.as_ref().map_or_else(Vec::new, |h| inverted_cells(h, &meshed.quality)),
         min_sj: some.then_some(found.min),
         avg_sj: some.then_some(found.average),
         histogram: found.histogram,
@@ -159,8 +143,9 @@ impl RemeshReport {
         self.inverted == 0 && self.folded == 0 && self.within_hausdorff
     }
 
-    /// How many cells bring the distance within the bound, if it shrinks in proportion to the length of edges: details do, smooth shapes
-    /// are faster. Nothing where the distance has other causes or so many cells would be out of reach.
+    /// How many cells bring the distance within the bound, if it shrinks in proportion to the length of edges: details
+    /// do, smooth shapes are faster. Nothing where the distance has other causes or so many cells would be out of
+    /// reach.
     fn near_enough(&self) -> Option<(f64, CellKind)> {
         let finer = self.hausdorff_percent / (100.0 * self.max_hausdorff);
         let (cells, count) = match self.hexes {
@@ -197,25 +182,11 @@ fn count_blocks(hexes: &Hexes, context: &Context) -> Result<usize> {
     Ok(base_complex(hexes.cells(), context)?.into_iter().max().map_or(0, |b| b as usize + 1))
 }
 
-fn inverted(hexes: &Hexes, scaled_jacobian: &[f64]) -> Vec<InvertedCell> {
-    let bad = scaled_jacobian.iter().enumerate().filter(|(_, q)| q.is_nan() || **q <= 0.0);
-    let describe = |(cell, &scaled_jacobian): (usize, &f64)| {
+fn inverted_cells(hexes: &Hexes, quality: &Quality) -> Vec<InvertedCell> {
+    let describe = |cell: usize| {
         let vertices = hexes.mesh.cells.cell(cell);
         let sum: nalgebra::Vector3<f64> = vertices.iter().map(|&v| hexes.mesh.points[v as usize].coords).sum();
-        InvertedCell { cell, scaled_jacobian, at: (sum / vertices.len() as f64).into() }
+        InvertedCell { cell, scaled_jacobian: quality.of_cell[cell], at: (sum / vertices.len() as f64).into() }
     };
-    bad.take(MOST_LISTED).map(describe).collect()
-}
-
-/// The diagonal of the bounding box of the points that cells use.
-pub(crate) fn diagonal(mesh: &Mesh) -> f64 {
-    let mut low = [f64::INFINITY; 3];
-    let mut high = [f64::NEG_INFINITY; 3];
-    for v in (0..mesh.cells.len()).flat_map(|i| mesh.cells.cell(i)) {
-        for a in 0..3 {
-            let x = mesh.points[*v as usize][a];
-            (low[a], high[a]) = (low[a].min(x), high[a].max(x));
-        }
-    }
-    (0..3).map(|a| (high[a] - low[a]).powi(2)).sum::<f64>().sqrt()
+    quality.inverted_cells().take(MOST_LISTED).map(describe).collect()
 }

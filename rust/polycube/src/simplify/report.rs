@@ -5,7 +5,7 @@ use crate::align::{Alignment, LowerBound, Round, Strategy, TradeOff, keeps};
 use crate::context::Context;
 use crate::error::Result;
 use crate::layout::Counts;
-use crate::map::{Distortion, Flipped, distortion, flipped};
+use crate::measure::{Distortion, Flipped, distortion, flipped};
 use crate::mesh::Mesh;
 use crate::structure::{Deviation, Polycube};
 

@@ -1,19 +1,10 @@
 //! A structure put in place: where its facets and edges lie, what a ray meets, and where the surface touches itself.
 
-use super::boxes::Boxes;
-use super::rectangles::rectangles;
+use super::rectangles::{LevelBox, rectangles};
 use super::{Edge, Structure};
+use crate::spatial::BoxTree;
 use rayon::prelude::*;
 use std::sync::OnceLock;
-
-/// A box of the lattice by the levels of its sides; `low` and `high` are equal along an axis where it is flat.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct LevelBox {
-    /// The lower level along X, Y and Z.
-    pub low: [u32; 3],
-    /// The higher level along X, Y and Z.
-    pub high: [u32; 3],
-}
 
 /// Two parts of the surface that touch or cross although they are not neighbours there.
 #[derive(Clone, Debug, PartialEq)]
@@ -40,9 +31,9 @@ pub struct Arrangement<'a> {
     placement: Vec<f64>,
     tiles: Vec<Tile>,
     /// The tiles across each axis.
-    tile_index: [Boxes; 3],
+    tile_index: [BoxTree; 3],
     /// The edges, made when first asked for: only looking for conflicts needs them.
-    edge_index: OnceLock<Boxes>,
+    edge_index: OnceLock<BoxTree>,
     folded: Vec<u32>,
 }
 
@@ -62,7 +53,7 @@ impl<'a> Arrangement<'a> {
         let extent = |levels: &LevelBox| structure.extent(levels, &placement);
         let tile_index = [0, 1, 2].map(|axis| {
             let across = |t: &(u32, &Tile)| structure.facets[t.1.facet as usize].label.axis() == axis;
-            Boxes::new((0..).zip(&tiles).filter(across).map(|(i, t)| (i, extent(&t.levels))))
+            BoxTree::new((0..).zip(&tiles).filter(across).map(|(i, t)| (i, extent(&t.levels))))
         });
         Self { structure, placement, tiles, tile_index, edge_index: OnceLock::new(), folded }
     }
@@ -187,10 +178,10 @@ impl<'a> Arrangement<'a> {
         if label.axis() == 0 { f64::from(label.sign()) * low[0] * (high[1] - low[1]) * (high[2] - low[2]) } else { 0.0 }
     }
 
-    fn edge_index(&self) -> &Boxes {
+    fn edge_index(&self) -> &BoxTree {
         let extent = |e: &Edge| self.structure.extent(&self.structure.edge_box(e), &self.placement);
         let edges = || (0..).zip(&self.structure.edges).map(|(i, e)| (i, extent(e)));
-        self.edge_index.get_or_init(|| Boxes::new(edges()))
+        self.edge_index.get_or_init(|| BoxTree::new(edges()))
     }
 
     fn folded_facet(&self, facet: u32) -> Conflict {

@@ -4,20 +4,21 @@
 //! all its corners is a [`Placement`]: one number per level. [`Polycube`] ties a structure to a mesh.
 
 mod arrangement;
-mod boxes;
 mod charts;
 mod extract;
 mod label;
 mod overlaps;
 mod polycube;
+mod read;
 mod rectangles;
 mod surface;
 mod violation;
 
-pub use arrangement::{Arrangement, Conflict, LevelBox};
+pub use arrangement::{Arrangement, Conflict};
 pub use label::{Label, area_vector};
 pub(crate) use overlaps::Overlaps;
 pub use polycube::{Deviation, Polycube, Tolerance};
+pub use rectangles::LevelBox;
 pub(crate) use rectangles::rectangles;
 pub use surface::{HalfEdge, Surface};
 pub use violation::Violation;

@@ -85,6 +85,14 @@ impl Faces {
     }
 }
 
+impl Polycube {
+    /// Where the surface touches or crosses itself, or looks inward, as the mesh comes: one place for each pair of
+    /// facets that meet.
+    pub fn overlaps(&self, points: &[Point]) -> Vec<Violation> {
+        Overlaps::of(self).all(points)
+    }
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;

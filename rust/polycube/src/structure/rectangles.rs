@@ -1,7 +1,15 @@
 //! A facet cut into rectangles, whatever its holes.
 
-use super::arrangement::LevelBox;
 use super::{Facet, Structure};
+
+/// A box of the lattice by the levels of its sides; `low` and `high` are equal along an axis where it is flat.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct LevelBox {
+    /// The lower level along X, Y and Z.
+    pub low: [u32; 3],
+    /// The higher level along X, Y and Z.
+    pub high: [u32; 3],
+}
 
 /// A coordinate and the level it belongs to.
 type At = (f64, u32);

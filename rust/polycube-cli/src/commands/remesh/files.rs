@@ -71,9 +71,9 @@ pub fn files<'a>(result: &'a Remeshed, formats: &Formats) -> Vec<File<'a>> {
         files.extend(extra.map(|f| file("quads", f, &result.quads.mesh, quad_fields(result, f))));
         return files;
     };
-    let mut fields = hexes.fields();
-    fields.push(CellField::real("scaled_jacobian", result.scaled_jacobian.clone()));
-    files.push(file("layout", Format::Vtk, &result.layout.blocks, result.layout.block_fields()));
+    let fields = hexes.fields();
+    let blocks = result.layout.blocks.iter();
+    files.extend(blocks.map(|blocks| file("layout", Format::Vtk, blocks, result.layout.block_fields())));
     files.push(file("hexes", Format::Medit, &hexes.mesh, Vec::new()));
     files.push(file("hexes", Format::Vtu, &hexes.mesh, fields.clone()));
     match extra {

@@ -1,8 +1,8 @@
 //! A hexahedral mesh to show.
 
 use crate::failure::{Failure, Result};
+use polycube::measure::scaled_jacobian;
 use polycube::mesh::{self, Cells, Point};
-use polycube::optimise::scaled_jacobian;
 use polycube::{Error, ErrorKind};
 use std::path::Path;
 

@@ -6,8 +6,8 @@ use super::scene::{Layout, Scene, Step};
 use base64::Engine;
 use base64::engine::general_purpose::STANDARD;
 use polycube::layout::Counts;
+use polycube::measure::{Statistics, statistics};
 use polycube::mesh::Point;
-use polycube::optimise::{Statistics, statistics};
 use polycube::{Error, ErrorKind, Result};
 use serde::Serialize;
 

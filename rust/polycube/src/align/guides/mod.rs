@@ -3,11 +3,9 @@
 mod mirror;
 mod reflect;
 mod resolved;
-mod start;
 
 pub(super) use mirror::symmetries;
 pub(super) use resolved::Guided;
-pub(super) use start::{guided_start, is_valid};
 
 use crate::error::{Error, ErrorKind, Place, Result};
 use crate::structure::{Label, Polycube};
@@ -38,9 +36,10 @@ use std::collections::BTreeSet;
 #[derive(Clone, Debug, Default, PartialEq, serde::Serialize, serde::Deserialize)]
 #[serde(default, deny_unknown_fields)]
 pub struct Guides {
-    /// Facets that must not move: the plane of each lies where the input has it, times the scale, rounded to the lattice. All
-    /// other facets find their places around them. Two that mirror each other about a plane of [`Guides::symmetry`] are an error
-    /// ([`ErrorKind::Infeasible`](crate::ErrorKind::Infeasible)) where rounding leaves no such plane on the lattice.
+    /// Facets that must not move: the plane of each lies where the input has it, times the scale, rounded to the
+    /// lattice. All other facets find their places around them. Two that mirror each other about a plane of
+    /// [`Guides::symmetry`] are an error ([`ErrorKind::Infeasible`](crate::ErrorKind::Infeasible)) where rounding
+    /// leaves no such plane on the lattice.
     pub fixed: Vec<usize>,
     /// Boundary faces whose facets must not move, numbered as [`Cells::boundary`](crate::mesh::Cells::boundary) has
     /// them (for a surface these are its cells).
@@ -57,8 +56,8 @@ pub struct Guides {
     pub symmetry: Vec<Symmetry>,
 }
 
-/// A plane that the input is symmetric about. Facets that mirror each other in the input do so in the result, about a plane
-/// within one lattice step of this one.
+/// A plane that the input is symmetric about. Facets that mirror each other in the input do so in the result, about a
+/// plane within one lattice step of this one.
 ///
 /// The input need not be exact: every corner must have a mirror image within a quarter of the shortest edge, and edges
 /// and facets must correspond.

@@ -1,6 +1,6 @@
 //! Placing levels and their mirror images on the lattice.
 
-use crate::align::place::{Plane, chain};
+use crate::align::chain::{Plane, chain};
 
 /// Levels of one axis closer than this part of the whole size are one plane when mirrored positions are averaged.
 const SAME: f64 = 1e-9;
@@ -23,16 +23,17 @@ impl Mirror {
         Self { image, at, centred: Vec::new(), held: None }
     }
 
-    /// Takes the sum of the coordinates of two fixed levels that mirror each other for twice the coordinate of the plane; `false` if
-    /// others are fixed to another sum, if that is more than a lattice step away, or off the lattice where a level must lie in it.
+    /// Takes the sum of the coordinates of two fixed levels that mirror each other for twice the coordinate of the
+    /// plane; `false` if others are fixed to another sum, if that is more than a lattice step away, or off the lattice
+    /// where a level must lie in it.
     pub fn hold(&mut self, doubled: i64) -> bool {
         let near = (doubled as f64 - 2.0 * self.at).abs() <= 2.0;
         let on_lattice = self.centred.is_empty() || doubled % 2 == 0;
         *self.held.get_or_insert(doubled) == doubled && near && on_lattice
     }
 
-    /// Twice the coordinate of the plane on the lattice: on a lattice plane if one of an odd number of planes lies in it.
-    /// Nothing if fixed levels have it elsewhere.
+    /// Twice the coordinate of the plane on the lattice: on a lattice plane if one of an odd number of planes lies in
+    /// it. Nothing if fixed levels have it elsewhere.
     fn doubled(&self, planes: usize) -> Option<i64> {
         let centred = planes % 2 == 1;
         match self.held {
@@ -42,7 +43,8 @@ impl Mirror {
         }
     }
 
-    /// Places the lower half nearest to the targets of both halves, and mirrors it; nothing if fixed planes do not allow that.
+    /// Places the lower half nearest to the targets of both halves, and mirrors it; nothing if fixed planes do not
+    /// allow that.
     pub fn place(&self, planes: &[Plane]) -> Option<Vec<i64>> {
         let (n, doubled) = (planes.len(), self.doubled(planes.len())?);
         let sums = (0..n).filter_map(|i| Some(planes[i].fixed? + planes[n - 1 - i].fixed?));
@@ -57,7 +59,8 @@ impl Mirror {
         Some(lower.iter().copied().chain(middle).chain(upper).collect())
     }
 
-    /// Makes one of each two levels that mirror each other the image of the other, of the one that is `held` if only one is.
+    /// Makes one of each two levels that mirror each other the image of the other, of the one that is `held` if only
+    /// one is.
     pub fn reflect(&self, levels: &mut [i64], held: impl Fn(u32) -> bool) {
         let doubled = self.doubled(usize::from(!self.centred.is_empty())).unwrap_or(0);
         for (l, &image) in (0..).zip(&self.image).filter(|(l, i)| l < *i) {

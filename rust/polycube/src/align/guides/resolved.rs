@@ -3,8 +3,8 @@
 use super::mirror::images;
 use super::reflect::Mirror;
 use super::{Guides, Symmetry};
+use crate::align::chain::{Plane, chain};
 use crate::align::classes::Classes;
-use crate::align::place::{Plane, chain};
 use crate::align::problem::Difference;
 use crate::align::ranks::Ranks;
 use crate::error::{Error, ErrorKind, Place, Result};
@@ -49,11 +49,13 @@ impl Guided {
         }
     }
 
-    /// The conditions of `guides` on the levels of a polycube that lies at `input`, for a lattice with `scale` steps per unit.
+    /// The conditions of `guides` on the levels of a polycube that lies at `input`, for a lattice with `scale` steps
+    /// per unit.
     ///
     /// # Errors
-    /// [`ErrorKind::Option`] for a facet that does not exist, for facets of different axes, and where guides contradict each
-    /// other or the edges of the polycube. [`ErrorKind::Infeasible`] where facets that mirror each other do not once they are rounded.
+    /// [`ErrorKind::Option`] for a facet that does not exist, for facets of different axes, and where guides contradict
+    /// each other or the edges of the polycube. [`ErrorKind::Infeasible`] where facets that mirror each other do not
+    /// once they are rounded.
     pub fn new(structure: &Structure, input: &[f64], guides: &Guides, scale: f64) -> Result<Self> {
         debug_assert!(guides.fixed_faces.is_empty() && guides.fixed_labels.is_empty(), "see `Guides::by_facets`");
         Self::conditions(structure, input, guides, scale).map_err(|e| e.in_option("guides"))
@@ -138,8 +140,8 @@ impl Guided {
         })
     }
 
-    /// The lattice coordinates of the planes along an axis nearest to their targets, mirrored where that is asked for; nothing if there is
-    /// no room between fixed ones.
+    /// The lattice coordinates of the planes along an axis nearest to their targets, mirrored where that is asked for;
+    /// nothing if there is no room between fixed ones.
     pub fn place(&self, axis: usize, planes: &[Plane]) -> Option<Vec<i64>> {
         match &self.mirrors[axis] {
             None => chain(planes, None),

@@ -1,6 +1,6 @@
 //! The integer problems of alignments as files, for `bench/run` to have other programs solve them.
 
-use super::{Settings, run};
+use super::{PaperSettings, run};
 use crate::align::guides::Guided;
 use crate::align::problem::Problem;
 use crate::align::solve::{ExactSolver, Solution, Solver};
@@ -40,7 +40,7 @@ fn for_bench() {
         let (structure, placement) = (&polycube.structure, &polycube.placement);
         let solver = Recorder { stem: folder.join(name), count: AtomicUsize::new(0) };
         let guided = Guided::free(structure);
-        let settings = Settings { lambda_min: 0.0, solver: &solver, guided: &guided, oblique_planes: false };
+        let settings = PaperSettings { lambda_min: 0.0, solver: &solver, guided: &guided, oblique_planes: false };
         let input = Unit::of(structure, placement).apply(structure, placement);
         run(structure, &input, &settings, &Context::default()).unwrap();
     }

@@ -7,12 +7,12 @@ pub mod neighbours;
 mod pairs;
 mod restart;
 
-pub use pairs::Pair;
 pub use restart::{descend, simplify};
 
 use super::classes::Classes;
 use super::guides::Guided;
 use super::problem::{Difference, Linear, Problem};
+pub use super::relax::Pair;
 use super::relax::{Demand, relax};
 use super::solve::Solver;
 use crate::align::to_integers;
@@ -93,7 +93,7 @@ impl<'a> Outcome<'a> {
 }
 
 /// How Algorithm 1 runs.
-pub struct Settings<'a> {
+pub struct PaperSettings<'a> {
     /// Stop before λ falls below this; 0 for the natural end.
     pub lambda_min: f64,
     /// The solver of the integer problems.
@@ -106,7 +106,12 @@ pub struct Settings<'a> {
 }
 
 /// Aligns the corners of a valid placement, given in lattice steps.
-pub fn run<'a>(structure: &'a Structure, input: &[f64], settings: &Settings, context: &Context) -> Result<Outcome<'a>> {
+pub fn run<'a>(
+    structure: &'a Structure,
+    input: &[f64],
+    settings: &PaperSettings,
+    context: &Context,
+) -> Result<Outcome<'a>> {
     let mut state = State::new(structure, input, settings);
     for halvings in 0..=Problem::MAX_HALVINGS {
         let lambda = 0.5_f64.powi(halvings as i32);
@@ -132,7 +137,7 @@ struct Plan {
 struct State<'a, 's> {
     structure: &'a Structure,
     input: &'s [f64],
-    settings: &'s Settings<'s>,
+    settings: &'s PaperSettings<'s>,
     placement: Placement,
     classes: Classes,
     steps: Vec<Step>,
@@ -143,7 +148,7 @@ struct State<'a, 's> {
 }
 
 impl<'a, 's> State<'a, 's> {
-    fn new(structure: &'a Structure, input: &'s [f64], settings: &'s Settings<'s>) -> Self {
+    fn new(structure: &'a Structure, input: &'s [f64], settings: &'s PaperSettings<'s>) -> Self {
         let classes = settings.guided.classes().clone();
         let linked = Linked::new(structure);
         Self { structure, input, settings, placement: input.to_vec(), classes, steps: Vec::new(), linked, plan: None }

@@ -3,26 +3,11 @@
 use super::neighbours::neighbours;
 use crate::align::classes::Classes;
 use crate::align::problem::Difference;
+use crate::align::relax::Pair;
 use crate::context::Context;
 use crate::error::Result;
 use crate::structure::{Arrangement, Structure};
 use rayon::prelude::*;
-
-/// Two corners that shall come to have the same coordinate along an axis.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, serde::Serialize)]
-pub struct Pair {
-    /// 0, 1 or 2 for X, Y or Z.
-    pub axis: usize,
-    /// The corners, ascending.
-    pub corners: [u32; 2],
-}
-
-impl Pair {
-    /// The levels that become equal.
-    pub fn levels(&self, structure: &Structure) -> [u32; 2] {
-        self.corners.map(|c| structure.corners[c as usize].levels[self.axis])
-    }
-}
 
 /// For every corner those that no pair joins it with: (a) the other ends of its edges, (b) the other ends of theirs.
 pub struct Linked(Vec<Vec<u32>>);

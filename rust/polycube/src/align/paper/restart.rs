@@ -1,8 +1,9 @@
 //! Algorithm 1 until a fresh start finds nothing more.
 
-use super::{Round, Settings, Step, run};
-use crate::align::guides::{Guided, is_valid};
+use super::{PaperSettings, Round, Step, run};
+use crate::align::guides::Guided;
 use crate::align::judge::Judge;
+use crate::align::judge::is_valid;
 use crate::align::place::place_in_order;
 use crate::align::ranks::Ranks;
 use crate::align::unit::Unit;
@@ -50,7 +51,7 @@ pub fn descend(task: &Task, targets: &[f64], placing: &Guided, context: &Context
     let solver = task.options.solver.solver();
     let oblique_planes = task.options.solver == SolverKind::Linear;
     let settings =
-        Settings { lambda_min: task.options.lambda_min, solver: &*solver, guided: &task.guided, oblique_planes };
+        PaperSettings { lambda_min: task.options.lambda_min, solver: &*solver, guided: &task.guided, oblique_planes };
     let place = |order: &[f64]| place_in_order(structure, &Ranks::new(structure, order), targets, placing);
     let mut best = place(&task.start)?;
     let unchanged = task.start == task.input;
@@ -76,7 +77,12 @@ type Counted = (Placement, Counts);
 
 /// One run of Algorithm 1 on `from`, settled near the start or, if only that is as coarse, near `from`; nothing if the
 /// guides do not allow where it ends.
-fn improve(task: &Task, from: &[f64], settings: &Settings, context: &Context) -> Result<(Option<Counted>, Vec<Step>)> {
+fn improve(
+    task: &Task,
+    from: &[f64],
+    settings: &PaperSettings,
+    context: &Context,
+) -> Result<(Option<Counted>, Vec<Step>)> {
     let structure = task.structure;
     let own = Unit::of(structure, from).apply(structure, from);
     let outcome = run(structure, &own, settings, context)?;

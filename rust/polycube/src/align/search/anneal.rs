@@ -2,6 +2,7 @@
 
 use super::front::Front;
 use super::moves::Moves;
+use super::state::State;
 use crate::align::guides::Guided;
 use crate::align::ranks::Ranks;
 use crate::context::Context;
@@ -10,24 +11,6 @@ use crate::layout::{Counter, Objective, counter};
 use crate::rng::SplitMix64;
 use crate::structure::Structure;
 use std::time::Instant;
-
-/// An order with what it counts and costs.
-#[derive(Clone, Debug, PartialEq)]
-pub struct State {
-    /// The order.
-    pub ranks: Ranks,
-    /// What the objective counts.
-    pub count: usize,
-    /// The least Σ weight · (x − target)² of each axis for this order, in squared units of the input.
-    pub shape: [f64; 3],
-}
-
-impl State {
-    /// Σ over the axes of `shape`.
-    pub fn shape_cost(&self) -> f64 {
-        self.shape.iter().sum()
-    }
-}
 
 /// What is searched, the same for every chain.
 pub struct Landscape<'a> {

@@ -1,8 +1,9 @@
 //! How many chains of annealing there are, where they begin, and how long they are.
 
-use super::Effort;
-use super::anneal::{Landscape, Schedule, State};
+use super::anneal::{Landscape, Schedule};
 use super::front::Front;
+use super::state::State;
+use crate::align::effort::Effort;
 use crate::context::Context;
 use crate::error::{Error, ErrorKind, Result};
 

@@ -1,7 +1,8 @@
 //! The strategy `best`, from the input to the chosen trade-off.
 
-use super::anneal::{Landscape, State};
+use super::anneal::Landscape;
 use super::front::Front;
+use super::state::State;
 use super::{Prepared, greedy, is_searchable, search};
 use crate::align::guides::Guided;
 use crate::align::judge::Judge;

@@ -1,6 +1,6 @@
 //! The trade-off between few blocks and little displacement.
 
-use super::anneal::State;
+use super::state::State;
 use std::collections::BTreeMap;
 
 /// Of all states seen, for each count the one with the least displacement, and only those that no other beats in both.

@@ -1,7 +1,8 @@
 //! Greedy merging: align the two levels that save most, recount, repeat.
 
-use super::anneal::{Chain, Landscape, State};
+use super::anneal::{Chain, Landscape};
 use super::front::Front;
+use super::state::State;
 use crate::context::Context;
 use crate::error::Result;
 

@@ -3,15 +3,17 @@
 mod anneal;
 mod chains;
 mod coarsest;
+mod components;
 mod front;
 mod greedy;
 mod moves;
-mod parts;
+mod state;
 
 pub use coarsest::{coarsest, place_trade_off};
 pub use moves::Moves;
 
 use super::Task;
+use super::effort::Effort;
 use super::guides::symmetries;
 use super::prove::{Proof, prove_guided};
 use super::ranks::Ranks;
@@ -19,36 +21,14 @@ use crate::context::Context;
 use crate::error::{Error, ErrorKind, Result};
 use crate::layout::MOST_LEVELS;
 use crate::structure::Structure;
-use anneal::{Landscape, State};
+use anneal::Landscape;
+use components::Component;
 use front::Front;
-use parts::Part;
-use std::time::{Duration, Instant};
-
-/// How long the search may take.
-#[derive(Clone, Copy, Debug, PartialEq, serde::Serialize)]
-pub struct Effort {
-    /// Moves tried per level in each of the eight chains; the result is the same for the same number.
-    pub steps_per_level: u32,
-    /// Partial orders that the proof of a lower bound looks at; 0 for a quick bound.
-    pub proof_nodes: u64,
-    /// Stop after this time, with the best found; the result then depends on the machine. Written as seconds.
-    #[serde(serialize_with = "in_seconds")]
-    pub time_limit: Option<Duration>,
-}
-
-impl Default for Effort {
-    fn default() -> Self {
-        Self { steps_per_level: 400, proof_nodes: 200, time_limit: None }
-    }
-}
-
-#[allow(clippy::ref_option, reason = "serde passes a reference")]
-fn in_seconds<S: serde::Serializer>(limit: &Option<Duration>, serializer: S) -> std::result::Result<S::Ok, S::Error> {
-    serde::Serialize::serialize(&limit.map(|l| l.as_secs_f64()), serializer)
-}
+use state::State;
+use std::time::Instant;
 
 /// The trade-offs met on the way.
-pub struct Found {
+pub struct SearchResult {
     /// Orders between the coarsest and the input.
     pub front: Front,
     /// What is known of the least count.
@@ -68,12 +48,12 @@ const FIXED: f64 = 1e4;
 ///
 /// The result counts no more than either, and than greedy merging from the input. The start of the task stands for the
 /// input where guides do not allow the input itself.
-pub fn search(task: &Task, paper: &[f64], context: &Context) -> Result<Found> {
-    let parts = if task.guided.is_free() { parts::split(task.structure, &task.start) } else { Vec::new() };
+pub fn search(task: &Task, paper: &[f64], context: &Context) -> Result<SearchResult> {
+    let parts = if task.guided.is_free() { components::split(task.structure, &task.start) } else { Vec::new() };
     if parts.len() < 2 { search_whole(task, paper, context) } else { search_parts(task, paper, &parts, context) }
 }
 
-fn search_parts(task: &Task, paper: &[f64], parts: &[Part], context: &Context) -> Result<Found> {
+fn search_parts(task: &Task, paper: &[f64], parts: &[Component], context: &Context) -> Result<SearchResult> {
     let mut found = Vec::new();
     for (k, part) in parts.iter().enumerate() {
         let done = |k: usize| k as f64 / parts.len() as f64;
@@ -89,14 +69,14 @@ fn search_parts(task: &Task, paper: &[f64], parts: &[Part], context: &Context) -
     let mut front = Front::default();
     let starts = [Ranks::new(task.structure, paper), Ranks::new(task.structure, &task.start)];
     starts.into_iter().filter_map(|ranks| chain.state(ranks)).for_each(|s| front.offer(&s));
-    parts::combine(task, parts, &found, &mut chain, &mut front, context)?;
+    components::combine(task, parts, &found, &mut chain, &mut front, context)?;
     let best = front.states().next();
     let best = best.ok_or_else(|| Error::new(ErrorKind::Internal, "the start of the search is not valid"))?;
     let proof = Proof { bound, best: best.ranks.clone(), count: best.count, proven: best.count == bound, nodes };
-    Ok(Found { front, proof })
+    Ok(SearchResult { front, proof })
 }
 
-fn search_whole(task: &Task, paper: &[f64], context: &Context) -> Result<Found> {
+fn search_whole(task: &Task, paper: &[f64], context: &Context) -> Result<SearchResult> {
     let prepared = Prepared::new(task);
     let starts = [Ranks::new(task.structure, paper), Ranks::new(task.structure, &task.start)];
     run(&prepared.landscape(task), &starts, &task.options.effort, context)
@@ -133,7 +113,7 @@ impl Prepared {
 }
 
 /// Greedy merging, the chains, the proof.
-fn run(landscape: &Landscape, starts: &[Ranks; 2], effort: &Effort, context: &Context) -> Result<Found> {
+fn run(landscape: &Landscape, starts: &[Ranks; 2], effort: &Effort, context: &Context) -> Result<SearchResult> {
     let mut chain = landscape.chain()?;
     let valid: Vec<State> = starts.iter().filter_map(|ranks| chain.state(ranks.clone())).collect();
     let Some(input) = valid.last().cloned() else {
@@ -154,7 +134,7 @@ fn run(landscape: &Landscape, starts: &[Ranks; 2], effort: &Effort, context: &Co
     if let Some(state) = chain.state(proof.best.clone()) {
         front.offer(&state);
     }
-    Ok(Found { front, proof })
+    Ok(SearchResult { front, proof })
 }
 
 fn diagonal(structure: &Structure, placement: &[f64]) -> f64 {

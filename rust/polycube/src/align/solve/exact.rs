@@ -17,7 +17,7 @@
 //! It ends at the lowest of all optimal solutions.
 
 use super::cut::{Network, UNLIMITED};
-use super::parts::{Part, split};
+use super::subproblems::{Subproblem, split};
 use super::{Solution, Solver, begin, finish};
 use crate::align::problem::Problem;
 use crate::context::Context;
@@ -67,7 +67,7 @@ pub(super) fn descend(problem: &Problem, levels: &mut [i64], context: &Context) 
 }
 
 /// Puts a part without pairs on its rounded targets if they keep their distances; whether that solved it.
-fn settle(problem: &Problem, part: &Part, levels: &mut [i64]) -> bool {
+fn settle(problem: &Problem, part: &Subproblem, levels: &mut [i64]) -> bool {
     let near = |i: u32| problem.rounded_target(part.variables[i as usize]);
     let solved = part.pairs.is_empty() && part.differences.iter().all(|d| near(d.high) - near(d.low) >= d.gap);
     if solved {
@@ -97,7 +97,7 @@ impl Way {
 /// `weight (2d + s)`, its derivatives half a step to either side. A pair cut by a move has its pull at the end of that
 /// range which is also an end of the range after the move, so pulls stay valid and the next cut starts almost solved.
 struct Descent<'a> {
-    part: &'a Part,
+    part: &'a Subproblem,
     context: &'a Context,
     network: &'a mut Network,
     /// Weight and target of each variable, as integers.
@@ -114,7 +114,13 @@ struct Descent<'a> {
 }
 
 impl<'a> Descent<'a> {
-    fn new(problem: &Problem, part: &'a Part, x: Vec<i64>, network: &'a mut Network, context: &'a Context) -> Self {
+    fn new(
+        problem: &Problem,
+        part: &'a Subproblem,
+        x: Vec<i64>,
+        network: &'a mut Network,
+        context: &'a Context,
+    ) -> Self {
         let fixed = |v: usize| i128::from(problem.fixed_target(v));
         let term = |&v: &usize| (i128::from(problem.shape[v].weight), fixed(v));
         Self {

@@ -12,8 +12,7 @@
 mod cut;
 mod exact;
 mod linear;
-mod parts;
-pub(crate) mod potential;
+mod subproblems;
 #[cfg(test)]
 mod tests;
 

@@ -4,7 +4,7 @@ use super::field::{CellField, FieldValues};
 use super::soup::Soup;
 use super::text::Text;
 use super::vtk_cells::{VtkCells, number_of, points};
-use super::vtu_data::Arrays;
+use super::vtu_data::{Arrays, find, line_of};
 use crate::error::{Error, ErrorKind, Place, Result};
 use crate::mesh::Mesh;
 use base64::Engine;
@@ -48,16 +48,6 @@ fn check_tags(text: &str) -> Result<()> {
         return Err(Error::new(ErrorKind::Parse, message).remedy("export the mesh again"));
     }
     Ok(())
-}
-
-/// Where `needle` first occurs.
-pub(super) fn find(bytes: &[u8], needle: &[u8]) -> Option<usize> {
-    bytes.windows(needle.len()).position(|window| window == needle)
-}
-
-/// The line of a node.
-pub(super) fn line_of(node: &Node) -> Place {
-    Place::Line(node.document().text_pos_at(node.range().start).row as usize)
 }
 
 fn add_piece(piece: &Node, arrays: &mut Arrays, soup: &mut Soup) -> Result<()> {

@@ -2,14 +2,14 @@
 
 use super::scalar::{Endian, Scalar};
 use super::scan::Scanner;
-use super::vtu::{find, line_of};
-use crate::error::{Error, ErrorKind, Result};
+use crate::error::{Error, ErrorKind, Place, Result};
 use base64::Engine;
 use base64::prelude::BASE64_STANDARD as STANDARD;
 use miniz_oxide::inflate::{TINFLStatus, decompress_to_vec_zlib_with_limit};
 use roxmltree::Node;
 
-/// Numbers that compressed data may inflate to, for each byte of the file. Of regular grids, which are packed best, there is one a byte.
+/// Numbers that compressed data may inflate to, for each byte of the file. Of regular grids, which are packed best,
+/// there is one a byte.
 const MOST_PER_BYTE: usize = 8;
 
 /// What the data arrays of a file have in common.
@@ -112,7 +112,8 @@ impl<'a> Arrays<'a> {
     }
 }
 
-/// A block of `expected` bytes or less, which must not be more than `room`: a small file could ask for any amount of memory.
+/// A block of `expected` bytes or less, which must not be more than `room`: a small file could ask for any amount of
+/// memory.
 fn inflate(block: &[u8], expected: usize, room: usize) -> Result<Vec<u8>> {
     decompress_to_vec_zlib_with_limit(block, expected.min(room)).map_err(|error| match error.status {
         TINFLStatus::HasMoreOutput if room < expected => {
@@ -214,4 +215,14 @@ impl<'a> Source<'a> {
         out.extend_from_slice(&bytes[..length]);
         Ok(Some(()))
     }
+}
+
+/// Where `needle` first occurs.
+pub(super) fn find(bytes: &[u8], needle: &[u8]) -> Option<usize> {
+    bytes.windows(needle.len()).position(|window| window == needle)
+}
+
+/// The line of a node.
+pub(super) fn line_of(node: &Node) -> Place {
+    Place::Line(node.document().text_pos_at(node.range().start).row as usize)
 }

@@ -4,8 +4,9 @@ use super::distant_points::{DistantPoint, distant_points};
 use super::fitting::{Fitting, POOR};
 use crate::context::Context;
 use crate::error::Result;
+use crate::measure::scaled_jacobian;
 use crate::mesh::{Face, Point, Stars};
-use crate::optimise::{Freedom, Settings, scaled_jacobian};
+use crate::optimise::{Freedom, Settings};
 
 /// How often vertices are moved there,
 const ROUNDS: usize = 4;
@@ -13,7 +14,8 @@ const ROUNDS: usize = 4;
 const TOO_FAR: f64 = 2.5;
 /// A round leaves no more than this part of what the distance exceeds the bound by, or it failed.
 const LEFT: f64 = 0.9;
-/// They are where the shape is farther from the mesh than this part of the bound: a little less, as optimising moves the others.
+/// They are where the shape is farther from the mesh than this part of the bound: a little less, as optimising moves
+/// the others.
 const NEARER: f64 = 0.9;
 /// What may be left of the worst scaled Jacobian of all, where it is not [`POOR`],
 const KEPT: f64 = 0.8;
@@ -54,9 +56,9 @@ impl Pull {
 }
 
 impl Fitting<'_> {
-    /// Moves vertices to where the shape is farther than `bound` from the mesh, as far as no hexahedron gets bad, and holds them there
-    /// while the others make way; and again, until the shape is near everywhere. If that cannot be had, all stay where they
-    /// were. How far away the shape is then; 0 if it is near.
+    /// Moves vertices to where the shape is farther than `bound` from the mesh, as far as no hexahedron gets bad, and
+    /// holds them there while the others make way; and again, until the shape is near everywhere. If that cannot be
+    /// had, all stay where they were. How far away the shape is then; 0 if it is near.
     pub(crate) fn limit_chord_error(
         &mut self,
         samples: &[Point],
@@ -64,7 +66,7 @@ impl Fitting<'_> {
         settings: &Settings,
         context: &Context,
     ) -> Result<f64> {
-        let mut worst = self.hexes.worst();
+        let mut worst = self.hexes.quality().worst;
         if worst <= 0.0 {
             return Ok(f64::INFINITY);
         }
@@ -88,7 +90,7 @@ impl Fitting<'_> {
             self.resize()?;
             self.run(&held, settings, &context.stage("fit", from, to))?;
             let left = self.distant_points(&faces, samples, bound, context)?;
-            let reached = self.hexes.worst();
+            let reached = self.hexes.quality().worst;
             let enough = bound + LEFT * (farthest - bound);
             if left.first().is_none_or(|g| g.distance < enough) && reached > POOR.min(KEPT * worst) {
                 worst = worst.max(reached);
@@ -134,7 +136,8 @@ impl Fitting<'_> {
         }
     }
 
-    /// Moves one vertex of the face nearest to a distant point towards it, if one slides through it and may, and holds it. Whether one did.
+    /// Moves one vertex of the face nearest to a distant point towards it, if one slides through it and may, and holds
+    /// it. Whether one did.
     fn pull(
         &mut self,
         distant: &DistantPoint,

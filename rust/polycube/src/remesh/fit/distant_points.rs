@@ -2,9 +2,10 @@
 
 use crate::context::Context;
 use crate::error::Result;
+use crate::measure::hausdorff::{self, AT_ONCE, triangles};
 use crate::mesh::{Face, Mesh, Point};
-use crate::optimise::{Guide, Nearest};
-use crate::remesh::hausdorff::{self, AT_ONCE, triangles};
+use crate::optimise::Guide;
+use crate::spatial::Nearest;
 use crate::structure::Surface;
 use rayon::prelude::*;
 
@@ -26,8 +27,8 @@ pub(crate) fn samples(surface: &Surface, shape: &[Point]) -> Vec<Point> {
     vertices.chain(surface.faces().iter().map(|f| f.middle(shape))).collect()
 }
 
-/// Where samples of a shape are farther than `bound` from the `faces` around a `mesh`, or those of its faces from the `shape`, the
-/// farthest first: the samples that [`hausdorff`](hausdorff::hausdorff) takes. O(n log n).
+/// Where samples of a shape are farther than `bound` from the `faces` around a `mesh`, or those of its faces from the
+/// `shape`, the farthest first: the samples that [`hausdorff`](hausdorff::hausdorff) takes. O(n log n).
 ///
 /// # Errors
 /// [`ErrorKind::Cancelled`](crate::ErrorKind::Cancelled).
@@ -60,8 +61,8 @@ pub(crate) fn distant_points(
     Ok(found)
 }
 
-/// The sample of a face that is farthest from the shape, if it is farther than `bound`. Vertices lie on the shape, so what is near one
-/// is near the shape.
+/// The sample of a face that is farthest from the shape, if it is farther than `bound`. Vertices lie on the shape, so
+/// what is near one is near the shape.
 fn bulge(mesh: &Mesh, face: &Face, shape: &dyn Guide, bound: f64) -> Option<DistantPoint> {
     let corners = face.vertices();
     let away = |p: &Point| corners.iter().all(|&v| (mesh.points[v as usize] - p).norm() > bound);

@@ -3,8 +3,9 @@
 use super::sliding::Sliding;
 use crate::context::Context;
 use crate::error::Result;
+use crate::measure::scaled_jacobian;
 use crate::mesh::Point;
-use crate::optimise::{Elements, Freedom, Guide, Settings, optimise, scaled_jacobian};
+use crate::optimise::{Elements, Freedom, Guide, Settings, optimise};
 use crate::remesh::lattice::Carrier;
 use crate::remesh::mesher::Hexes;
 use rayon::prelude::*;
@@ -29,7 +30,7 @@ pub(crate) struct Fitting<'a> {
 impl Fitting<'_> {
     /// Whether many hexahedra are inverted.
     pub(crate) fn is_hopeless(&self) -> bool {
-        self.hexes.inverted() as f64 > HOPELESS * self.hexes.cells().len() as f64
+        self.hexes.quality().inverted as f64 > HOPELESS * self.hexes.cells().len() as f64
     }
 
     /// Puts every surface vertex on what it slides on.
@@ -49,7 +50,8 @@ impl Fitting<'_> {
         Ok(optimise(points, &self.elements, freedom, &self.guides, settings, context)?.inverted_after)
     }
 
-    /// Lets vertices of hexahedra whose scaled Jacobian is `bar` or less slide on all of the surface, where `may` agrees.
+    /// Lets vertices of hexahedra whose scaled Jacobian is `bar` or less slide on all of the surface, where `may`
+    /// agrees.
     pub(crate) fn release(&mut self, bar: f64, may: impl Fn(&Sliding, Carrier, &Point) -> bool) {
         let Hexes { mesh, carriers, .. } = &*self.hexes;
         let bad = self.hexes.cells().iter().filter(|c| scaled_jacobian(&mesh.points, c) <= bar);

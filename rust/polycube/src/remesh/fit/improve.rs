@@ -8,7 +8,7 @@ use crate::error::Result;
 use crate::mesh::Point;
 use crate::optimise::{Elements, Settings, optimise};
 use crate::remesh::mesher::Hexes;
-use crate::simplify::Simplified;
+use crate::structure::Polycube;
 
 /// Most passes of the optimiser over a mesh: each asks for boxes of the sizes that the one before led to.
 const PASSES: usize = 4;
@@ -27,7 +27,8 @@ pub(crate) enum Aim {
     Within(f64),
     /// A finer one starts from it.
     Coarse,
-    /// It is one of several that show what can be had, and is given up where many hexahedra stay inverted while edges are held.
+    /// It is one of several that show what can be had, and is given up where many hexahedra stay inverted while edges
+    /// are held.
     Trial,
 }
 
@@ -43,18 +44,18 @@ pub(crate) struct Improved {
 /// Moves the vertices of a mesh until no hexahedron is inverted and the worst is as good as can be had.
 ///
 /// Inverted ones are first untangled with the surface held, then with the edges held, so that surface vertices do not
-/// slide past each other, from where there is no way back. Vertices of inverted hexahedra may leave corners and edges for
-/// the surface around, and so may those of poor ones where the shape has no crease. Where the shape is farther
-/// from the mesh than it shall be, vertices are put on what is cut off, as far as the hexahedra stay good.
+/// slide past each other, from where there is no way back. Vertices of inverted hexahedra may leave corners and edges
+/// for the surface around, and so may those of poor ones where the shape has no crease. Where the shape is farther from
+/// the mesh than it shall be, vertices are put on what is cut off, as far as the hexahedra stay good.
 pub(crate) fn improve(
-    map: &Simplified,
+    polycube: &Polycube,
     hexes: &mut Hexes,
     shape: &[Point],
     settings: &Settings,
     aim: Aim,
     context: &Context,
 ) -> Result<Improved> {
-    let sliding = Sliding::new(&map.input, shape, &context.stage("untangle", 0.0, 0.0))?;
+    let sliding = Sliding::new(polycube, shape, &context.stage("untangle", 0.0, 0.0))?;
     let elements = Elements::boxes_like(hexes.cells(), &hexes.mesh.points, SMOOTHING)?;
     context.stage("untangle", 0.0, 0.0).tick(0.0)?;
     let freedom = sliding.freedoms(&hexes.carriers, Hold::Corners);
@@ -68,7 +69,7 @@ pub(crate) fn improve(
     if let Aim::Within(bound) = aim {
         let settings = Settings { untangle_rounds: settings.untangle_rounds.min(LATE_ROUNDS), ..settings.clone() };
         far = fitting.limit_chord_error(
-            &samples(&map.input.surface, shape),
+            &samples(&polycube.surface, shape),
             bound,
             &settings,
             &context.stage("optimise", 0.8, 1.0),
@@ -78,8 +79,8 @@ pub(crate) fn improve(
 }
 
 impl Fitting<'_> {
-    /// Untangling alone, with more and more vertices that may move, until no hexahedron is inverted; without patience only as long as
-    /// there is hope.
+    /// Untangling alone, with more and more vertices that may move, until no hexahedron is inverted; without patience
+    /// only as long as there is hope.
     fn untangle(&mut self, settings: &Settings, patient: bool, context: &Context) -> Result<()> {
         let first = Settings {
             untangle_rounds: 8,

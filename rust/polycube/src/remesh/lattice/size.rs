@@ -57,11 +57,11 @@ pub(crate) fn check_count(simplified: &Simplified, padding: usize) -> Result<()>
 /// A count within this part of the wanted one ends the search.
 const CLOSE: f64 = 0.005;
 
-/// The scale at which a simplified polycube gives meshes of the wanted `size`, for
-/// [`Simplified::rescaled`] or [`Options::scale`](crate::Options::scale). The block structure is the same at every scale.
+/// The scale at which a simplified polycube gives meshes of the wanted `size`, for [`Simplified::rescaled`] or
+/// [`Options::scale`](crate::Options::scale). The block structure is the same at every scale.
 ///
-/// For [`Size::Hexes`] the scale is searched for until the count with `padding` layers is within half a percent of
-/// the wanted one, or else the closest found is taken: levels are integers, so thin polycubes have few counts to choose
+/// For [`Size::Hexes`] the scale is searched for until the count with `padding` layers is within half a percent of the
+/// wanted one, or else the closest found is taken: levels are integers, so thin polycubes have few counts to choose
 /// from, and there is a least count. Takes up to 40 placements of the levels, some milliseconds each.
 ///
 /// # Errors
@@ -77,8 +77,9 @@ pub fn scale_for(input: &Input, simplified: &Simplified, size: Size, padding: us
             Ok(stretch / length)
         }
         Size::Hexes(count) => {
-            let targets = &simplified.input.placement;
-            ScaleSearch { simplified, targets, padding, wanted: count as f64 }.run(context)
+            let (structure, targets) = (&simplified.input.structure, &simplified.input.placement);
+            let levels_at = &|scale: f64, context: &Context| simplified.levels_at(targets, scale, context);
+            ScaleSearch { structure, targets, levels_at, padding, wanted: count as f64 }.run(context)
         }
     }
 }
@@ -109,9 +110,11 @@ fn area(simplified: &Simplified, points: &[Point]) -> f64 {
 
 /// Looks for the scale of a wanted count.
 pub(crate) struct ScaleSearch<'a> {
-    pub(crate) simplified: &'a Simplified,
+    pub(crate) structure: &'a Structure,
     /// Where the levels should lie, up to the scale.
     pub(crate) targets: &'a [f64],
+    /// The levels at a scale.
+    pub(crate) levels_at: &'a dyn Fn(f64, &Context) -> Result<Vec<i64>>,
     pub(crate) padding: usize,
     pub(crate) wanted: f64,
 }
@@ -148,14 +151,13 @@ impl ScaleSearch<'_> {
     }
 
     fn count(&self, scale: f64, context: &Context) -> Result<f64> {
-        let levels = self.simplified.levels_at(self.targets, scale, context)?;
-        Ok((count_hexes(&self.simplified.input.structure, &levels, self.padding) as f64).max(0.5))
+        let levels = (self.levels_at)(scale, context)?;
+        Ok((count_hexes(self.structure, &levels, self.padding) as f64).max(0.5))
     }
 
     /// The root of `volume s³ + padding · surface s² = wanted`.
     fn guess(&self) -> f64 {
-        let Simplified { input, .. } = self.simplified;
-        let (volume, surface) = volume_and_surface(&Arrangement::new(&input.structure, self.targets));
+        let (volume, surface) = volume_and_surface(&Arrangement::new(self.structure, self.targets));
         let count = |s: f64| volume * s * s * s + self.padding as f64 * surface * s * s;
         let (mut low, mut high) = (0.0, libm::cbrt(self.wanted / volume));
         for _ in 0..100 {

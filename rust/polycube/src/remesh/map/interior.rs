@@ -2,7 +2,7 @@
 
 use crate::context::Context;
 use crate::error::{Error, ErrorKind, Result};
-use crate::map::{Rows, extend_harmonic};
+use crate::map::{SparseRows, extend_harmonic};
 use crate::mesh::Point;
 use crate::remesh::lattice::{Grid, Keys, rank};
 use nalgebra::Vector3;
@@ -15,7 +15,7 @@ use nalgebra::Vector3;
 /// # Errors
 /// [`ErrorKind::Cancelled`]; [`ErrorKind::Internal`] if the solver fails.
 pub(crate) fn fill_inside(grid: &Grid, points: &mut [Point], context: &Context) -> Result<()> {
-    let mut rows = Rows::new();
+    let mut rows = SparseRows::new();
     let mut row = Vec::new();
     for (&key, carrier) in grid.vertices.iter().zip(&grid.carriers) {
         if !carrier.is_surface() {

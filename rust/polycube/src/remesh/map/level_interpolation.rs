@@ -1,23 +1,7 @@
 //! From one lattice to another with the same order of levels.
 
 use crate::mesh::Point;
-use crate::simplify::Simplified;
-
-/// The same map onto a lattice with other levels in the same order.
-pub(crate) fn on_levels(map: &Simplified, levels: Vec<i64>) -> Simplified {
-    let mut moved = map.clone();
-    if let Some(mesh) = &mut moved.polycube {
-        mesh.points = moved_points(map, &levels, &mesh.points);
-    }
-    moved.levels = levels;
-    moved
-}
-
-/// Points on the lattice of `map` moved onto one with other levels.
-fn moved_points(map: &Simplified, levels: &[i64], points: &[Point]) -> Vec<Point> {
-    let between = LevelInterpolation::new(map, &map.levels, levels);
-    points.iter().map(|p| Point::from(between.apply(p.coords.into()))).collect()
-}
+use crate::structure::Structure;
 
 /// From one lattice to another with the same order of levels: linear between levels.
 pub(crate) struct LevelInterpolation {
@@ -26,9 +10,9 @@ pub(crate) struct LevelInterpolation {
 }
 
 impl LevelInterpolation {
-    pub(crate) fn new(map: &Simplified, from: &[i64], to: &[i64]) -> Self {
+    pub(crate) fn new(structure: &Structure, from: &[i64], to: &[i64]) -> Self {
         let mut planes = [const { Vec::new() }; 3];
-        for (level, (&from, &to)) in map.input.structure.levels.iter().zip(from.iter().zip(to)) {
+        for (level, (&from, &to)) in structure.levels.iter().zip(from.iter().zip(to)) {
             planes[level.axis].push([from as f64, to as f64]);
         }
         for own in &mut planes {
@@ -36,6 +20,11 @@ impl LevelInterpolation {
             own.dedup();
         }
         Self { planes }
+    }
+
+    /// Moves points from one lattice onto the other.
+    pub(crate) fn move_all(&self, points: &mut [Point]) {
+        points.iter_mut().for_each(|p| *p = Point::from(self.apply(p.coords.into())));
     }
 
     pub(crate) fn apply(&self, at: [f64; 3]) -> [f64; 3] {

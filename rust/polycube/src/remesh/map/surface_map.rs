@@ -1,9 +1,8 @@
 //! From the surface of the polycube on the lattice to the surface of the shape (paper, section 7).
 
-use super::barycentric::{Barycentric, in_triangle};
-use super::locate::{Boxes, Found, bounds};
 use crate::mesh::Point;
 use crate::remesh::lattice::Carrier;
+use crate::spatial::{Barycentric, Location, SimplexIndex, bounds, in_triangle};
 use crate::structure::{Label, Polycube};
 use nalgebra::Vector3;
 
@@ -15,7 +14,7 @@ pub(crate) struct SurfaceMap<'a> {
     /// The same vertices on the shape.
     to: &'a [Point],
     triangles: Vec<[u32; 3]>,
-    facets: Vec<Boxes<[f64; 2]>>,
+    facets: Vec<SimplexIndex<[f64; 2]>>,
 }
 
 impl<'a> SurfaceMap<'a> {
@@ -30,7 +29,7 @@ impl<'a> SurfaceMap<'a> {
         }
         let index = |(facet, own): (usize, Vec<u32>)| {
             let label = polycube.structure.facets[facet].label;
-            Boxes::new(own.into_iter().map(|t| {
+            SimplexIndex::new(own.into_iter().map(|t| {
                 let (low, high) = bounds(&map.corners(t, label));
                 (low, high, t)
             }))
@@ -78,7 +77,7 @@ impl<'a> SurfaceMap<'a> {
             let corners = self.corners(t, label);
             (0..2).map(|k| (0..3).map(|c| w[c] * corners[c][k]).sum::<f64>() - point[k]).map(|d| d * d).sum()
         };
-        let Found { simplex, weights, inside } = self.facets[facet as usize].locate(point, coordinates, gap)?;
+        let Location { simplex, weights, inside } = self.facets[facet as usize].locate(point, coordinates, gap)?;
         let corners = self.triangles[simplex as usize].map(|v| self.to[v as usize].coords);
         let sum: Vector3<f64> = corners.iter().zip(weights).map(|(p, w)| p * w).sum();
         Some((Point::from(sum), inside))

@@ -4,7 +4,7 @@ use super::refine::Refined;
 use crate::context::Context;
 use crate::error::Result;
 use crate::optimise::{Elements, Freedom, Scope, Settings, optimise};
-use crate::simplify::Corners;
+use crate::simplify::CornerTetrahedra;
 
 /// Untangling alone.
 const UNTANGLE: Settings = Settings {
@@ -25,12 +25,13 @@ const SMOOTH: Settings = Settings { untangle_rounds: 0, improve_rounds: 2, impro
 
 /// How often triangles are split where they cannot be turned the right way round.
 const SPLITS: usize = 2;
-/// Splitting helps single triangles without room, not a facet that is folded: then more than this part of all are turned over.
+/// Splitting helps single triangles without room, not a facet that is folded: then more than this part of all are
+/// turned over.
 const FOLDED: f64 = 0.001;
 
 /// Moves the surface vertices of a polycube in their facets and along their edges so that no triangle is turned over
-/// and each looks like that of the shape, as far as that goes; splits triangles where it does not go otherwise, as long as that
-/// leaves fewer of them turned over. Where a facet stays folded, how many triangles are turned over; else 0.
+/// and each looks like that of the shape, as far as that goes; splits triangles where it does not go otherwise, as long
+/// as that leaves fewer of them turned over. Where a facet stays folded, how many triangles are turned over; else 0.
 pub(crate) fn untangle_surface(refined: &mut Refined, context: &Context) -> Result<usize> {
     spread_chains(refined);
     let mut least = usize::MAX;
@@ -58,7 +59,8 @@ pub(crate) fn untangle_surface(refined: &mut Refined, context: &Context) -> Resu
 /// Segments of an edge no shorter than this part of their mean are well enough spread.
 const LEAST_STEP: f64 = 0.02;
 
-/// Places the vertices of a polycube edge that are out of order or too close by their distances along the edge on the shape.
+/// Places the vertices of a polycube edge that are out of order or too close by their distances along the edge on the
+/// shape.
 fn spread_chains(refined: &mut Refined) {
     let Refined { polycube, points, shape, .. } = refined;
     for (edge, chain) in polycube.structure.edges.iter().zip(&polycube.chains) {
@@ -83,7 +85,7 @@ fn spread_chains(refined: &mut Refined) {
 /// While there are such, edges are held: their vertices would lose their order.
 fn relax(refined: &mut Refined, sliding: bool, context: &Context) -> Result<Vec<usize>> {
     let Refined { polycube, points, shape, .. } = refined;
-    let mut corners = Corners::of_surface(polycube, points, shape);
+    let mut corners = CornerTetrahedra::of_surface(polycube, points, shape);
     for (freedom, levels) in corners.freedom.iter_mut().zip(&polycube.vertex_levels) {
         if sliding && levels.iter().flatten().count() == 2 {
             *freedom = Freedom::Axes(levels.map(|l| l.is_some()));

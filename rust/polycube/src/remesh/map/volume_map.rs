@@ -1,8 +1,7 @@
 //! From the inside of the polycube on the lattice to the inside of the shape, by tetrahedra (paper, section 7).
 
-use super::barycentric::in_tetrahedron;
-use super::locate::{Boxes, Found, bounds};
 use crate::mesh::{Mesh, Point, Simplices};
+use crate::spatial::{Location, SimplexIndex, bounds, in_tetrahedron};
 use nalgebra::Vector3;
 use std::borrow::Cow;
 
@@ -13,7 +12,7 @@ pub(crate) struct VolumeMap<'a> {
     from: &'a [Point],
     /// The same vertices in the shape.
     to: &'a [Point],
-    index: Boxes<[f64; 3]>,
+    index: SimplexIndex<[f64; 3]>,
 }
 
 impl<'a> VolumeMap<'a> {
@@ -25,7 +24,7 @@ impl<'a> VolumeMap<'a> {
             let (low, high) = bounds(&corners(from, t));
             (low, high, i)
         });
-        let index = Boxes::new(boxes);
+        let index = SimplexIndex::new(boxes);
         Some(Self { tetrahedra, from, to, index })
     }
 
@@ -37,7 +36,7 @@ impl<'a> VolumeMap<'a> {
             let corners = corners(t);
             (0..3).map(|k| (0..4).map(|c| w[c] * corners[c][k]).sum::<f64>() - at[k]).map(|d| d * d).sum()
         };
-        let Found { simplex, weights, inside } = self.index.locate(at, |t| in_tetrahedron(at, corners(t)), gap)?;
+        let Location { simplex, weights, inside } = self.index.locate(at, |t| in_tetrahedron(at, corners(t)), gap)?;
         let ends = self.tetrahedra[simplex as usize].map(|v| self.to[v as usize].coords);
         let sum: Vector3<f64> = ends.iter().zip(weights).map(|(p, w)| p * w).sum();
         Some((Point::from(sum), inside))

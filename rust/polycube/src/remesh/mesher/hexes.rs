@@ -4,8 +4,8 @@ use super::embedding::Embedding;
 use super::remesher::Remesher;
 use crate::context::Context;
 use crate::error::{Error, ErrorKind, Result};
+use crate::measure::{Quality, scaled_jacobian};
 use crate::mesh::{CellField, Cells, Mesh, Point};
-use crate::optimise::scaled_jacobian;
 use crate::remesh::lattice::{Carrier, Grid, Padding, too_fine};
 use crate::remesh::map::{fill_inside, interpolate};
 
@@ -40,30 +40,20 @@ impl Hexes {
         }
     }
 
-    /// How many are inverted or flat.
-    pub(crate) fn inverted(&self) -> usize {
-        self.scaled_jacobians().filter(|q| *q <= 0.0).count()
+    /// The scaled Jacobians of the hexahedra as they are now. Linear time.
+    pub fn quality(&self) -> Quality {
+        Quality::new(self.cells().iter().map(|c| scaled_jacobian(&self.mesh.points, c)).collect())
     }
 
-    /// The worst scaled Jacobian; 1 without hexahedra.
-    pub(crate) fn worst(&self) -> f64 {
-        self.scaled_jacobians().fold(1.0, f64::min)
-    }
-
-    /// The mean scaled Jacobian.
-    pub(crate) fn average(&self) -> f64 {
-        self.scaled_jacobians().sum::<f64>() / self.cells().len().max(1) as f64
-    }
-
-    fn scaled_jacobians(&self) -> impl Iterator<Item = f64> {
-        self.cells().iter().map(|c| scaled_jacobian(&self.mesh.points, c))
-    }
-
-    /// The fields `block_id` and `label` for mesh files.
+    /// The fields `block_id`, `label` and `scaled_jacobian` for mesh files.
     pub fn fields(&self) -> Vec<CellField> {
         let blocks = self.block_id.iter().map(|&b| b as i32).collect();
         let labels = self.label.iter().map(|&l| i32::from(l)).collect();
-        vec![CellField::integer("block_id", blocks), CellField::integer("label", labels)]
+        vec![
+            CellField::integer("block_id", blocks),
+            CellField::integer("label", labels),
+            CellField::real("scaled_jacobian", self.quality().of_cell),
+        ]
     }
 }
 

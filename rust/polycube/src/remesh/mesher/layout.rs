@@ -19,7 +19,8 @@ pub struct SingularEdge {
 #[derive(Clone, Debug, PartialEq)]
 pub struct Layout {
     /// One hexahedron for each block, in the order of [`Hexes::block_id`](super::Hexes::block_id); VTK's node order.
-    pub blocks: Mesh,
+    /// Nothing for a surface alone: the corners of blocks inside have no place there.
+    pub blocks: Option<Mesh>,
     /// One quadrilateral for each patch, in the order of [`Quads::patch_id`](super::Quads::patch_id), counter-clockwise
     /// seen from outside.
     pub patches: Mesh,
@@ -32,7 +33,8 @@ pub struct Layout {
 impl Layout {
     /// The field `block_id` of `blocks`, for mesh files.
     pub fn block_fields(&self) -> Vec<CellField> {
-        vec![CellField::integer("block_id", (0..self.blocks.cells.len() as i32).collect())]
+        let count = self.blocks.as_ref().map_or(0, |blocks| blocks.cells.len());
+        vec![CellField::integer("block_id", (0..count as i32).collect())]
     }
 }
 
@@ -54,7 +56,7 @@ impl Remesher<'_> {
         let blocks = numbers.blocks()?;
         let patches = numbers.patches()?;
         Ok(Layout {
-            blocks: Mesh::of_used(points, Cells::Hexahedra(blocks)).0,
+            blocks: Some(Mesh::of_used(points, Cells::Hexahedra(blocks)).0),
             patches: Mesh::of_used(points, Cells::Quads(patches)).0,
             patch_label: self.grid.patches.iter().map(|p| p.label.index() as i8).collect(),
             singular: numbers.singular(points)?,
@@ -106,7 +108,7 @@ impl Numbers<'_, '_> {
     }
 
     fn singular(&self, points: &[Point]) -> Result<Vec<SingularEdge>> {
-        let structure = &self.remesher.simplified.input.structure;
+        let structure = &self.remesher.map.polycube.structure;
         let layers = u32::from(self.padding > 0);
         let mut singular = Vec::new();
         for edge in 0..structure.edges.len() {
@@ -122,11 +124,11 @@ impl Numbers<'_, '_> {
 
     /// Adds the edges from irregular corners through the padding, each with as many blocks as it has squares around.
     fn add_pillars(&self, points: &[Point], singular: &mut Vec<SingularEdge>) -> Result<()> {
-        let Remesher { simplified, grid, .. } = self.remesher;
+        let Remesher { map, grid, .. } = self.remesher;
         let mut squares = vec![0; grid.vertices.len()];
         grid.squares.iter().flat_map(|s| s.vertices).for_each(|v| squares[v as usize] += 1);
-        for corner in &simplified.input.structure.corners {
-            let position = corner.levels.map(|l| simplified.levels[l as usize]);
+        for corner in &map.structure().corners {
+            let position = corner.levels.map(|l| map.levels[l as usize]);
             let vertices: Vec<u32> =
                 (0..=self.padding).map(|layer| self.vertex(position, layer)).collect::<Result<_>>()?;
             match squares[vertices[0] as usize] {
@@ -139,11 +141,10 @@ impl Numbers<'_, '_> {
 
     /// The lattice vertices along an edge of the polycube.
     fn chain(&self, edge: usize) -> Result<Vec<u32>> {
-        let Remesher { simplified, .. } = self.remesher;
-        let structure = &simplified.input.structure;
+        let Remesher { map, .. } = self.remesher;
+        let structure = map.structure();
         let edge = &structure.edges[edge];
-        let [low, high] =
-            edge.corners.map(|c| structure.corners[c as usize].levels.map(|l| simplified.levels[l as usize]));
+        let [low, high] = edge.corners.map(|c| structure.corners[c as usize].levels.map(|l| map.levels[l as usize]));
         let along = |x: i64| {
             let mut at = low;
             at[edge.axis] = x;

@@ -4,8 +4,8 @@ use super::embedding::Embedding;
 use super::remesher::Remesher;
 use crate::context::Context;
 use crate::error::Result;
+use crate::measure::{Quality, quadrilateral_scaled_jacobian};
 use crate::mesh::{CellField, Cells, Mesh, Point};
-use crate::optimise::quadrilateral_scaled_jacobian;
 use crate::remesh::lattice::Carrier;
 
 /// A quadrilateral mesh of the shape's surface. Fields have one value per quadrilateral.
@@ -28,17 +28,11 @@ pub struct Quads {
 }
 
 impl Quads {
-    /// The [scaled Jacobian](quadrilateral_scaled_jacobian) of every quadrilateral, in −1..1: how near it is to a rectangle.
-    pub fn scaled_jacobian(&self) -> Vec<f64> {
-        match &self.mesh.cells {
-            Cells::Quads(quads) => quads.iter().map(|q| quadrilateral_scaled_jacobian(&self.mesh.points, q)).collect(),
-            _ => Vec::new(),
-        }
-    }
-
-    /// How many are inverted or flat: of no positive scaled Jacobian.
-    pub(crate) fn inverted(&self) -> usize {
-        self.scaled_jacobian().iter().filter(|q| q.is_nan() || **q <= 0.0).count()
+    /// The [scaled Jacobians](quadrilateral_scaled_jacobian) of the quadrilaterals: how near each is to a rectangle.
+    /// Linear time.
+    pub fn quality(&self) -> Quality {
+        let Cells::Quads(quads) = &self.mesh.cells else { return Quality::new(Vec::new()) };
+        Quality::new(quads.iter().map(|q| quadrilateral_scaled_jacobian(&self.mesh.points, q)).collect())
     }
 
     /// The mean length of their sides, in the units of the shape.
@@ -79,8 +73,8 @@ impl Quads {
 }
 
 impl Remesher<'_> {
-    /// The surface of the lattice on the shape: corners go to corners, lattice vertices of an edge along the edge, others
-    /// through the triangles of their facet. O(n log n) for n quadrilaterals.
+    /// The surface of the lattice on the shape: corners go to corners, lattice vertices of an edge along the edge,
+    /// others through the triangles of their facet. O(n log n) for n quadrilaterals.
     ///
     /// # Errors
     /// [`ErrorKind::Cancelled`](crate::ErrorKind::Cancelled).
@@ -107,8 +101,8 @@ impl Remesher<'_> {
         })
     }
 
-    /// The vertices of [`quads`](Self::quads) among `points`, which has the vertices of [`hexes`](Self::hexes) with this
-    /// `padding`.
+    /// The vertices of [`quads`](Self::quads) among `points`, which has the vertices of [`hexes`](Self::hexes) with
+    /// this `padding`.
     pub(crate) fn surface_of(&self, points: &[Point], padding: usize) -> Vec<Point> {
         let ring = self.grid.surface_vertices();
         match padding {

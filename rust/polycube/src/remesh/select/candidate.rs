@@ -10,16 +10,17 @@ use crate::error::Result;
 use crate::mesh::Mesh;
 use crate::remesh::fit::Aim;
 use crate::remesh::lattice::{check_count, scale_for};
-use crate::remesh::map::{Refined, on_levels, untangle_surface};
+use crate::remesh::map::{LatticeMap, LevelInterpolation, Refined, untangle_surface};
 use crate::remesh::options::RemeshOptions;
 use crate::simplify::{Input, Note, Simplified};
+use std::sync::Arc;
 
 /// What a mesh is made from.
 pub(crate) struct Candidate {
     /// The polycube at the wanted size.
     pub(crate) simplified: Simplified,
-    /// The same with a better map of the surface, refined for meshing.
-    pub(crate) map: Simplified,
+    /// Its mesh with a better map of the surface, refined for meshing.
+    pub(crate) map: LatticeMap,
     /// The shape that goes with it.
     pub(crate) shape: Mesh,
     /// A coarser mesh to start from.
@@ -33,8 +34,8 @@ pub(crate) struct Candidate {
 }
 
 impl Candidate {
-    /// Places the levels of `found` at the wanted size, untangles the map of the surface, and makes the coarse mesh; if it is one of
-    /// `several`, only where that looks promising.
+    /// Places the levels of `found` at the wanted size, untangles the map of the surface, and makes the coarse mesh; if
+    /// it is one of `several`, only where that looks promising.
     ///
     /// # Errors
     /// Those of [`scale_for`] and [`optimise`](crate::optimise::optimise()).
@@ -50,23 +51,24 @@ impl Candidate {
         let (mut map, shape, folded) = improve_map(&mut simplified, shape, &context.stage("map", 0.2, 0.4))?;
         let mut coarse = None;
         let hopeless = folded > 0 && several;
+        let blocks = simplified.report.after.map_or(0, |counts| counts.blocks_padded);
         let aim = if several { Aim::Trial } else { Aim::Coarse };
         if !options.surface_only && !hopeless {
-            coarse = mesh_coarsely(&map, &shape, options, aim, &context.stage("map", 0.4, 1.0))?;
+            coarse = mesh_coarsely(&map, blocks, &shape, options, aim, &context.stage("map", 0.4, 1.0))?;
         }
         let flexible = coarse.as_ref().filter(|_| options.has_flexible_levels());
         let is_spaced = flexible.is_some();
         if let Some(coarse) = flexible {
             let levels = spaced(&map, coarse, options.padding, context)?;
-            simplified = on_levels(&simplified, levels.clone());
-            map = on_levels(&map, levels);
+            put_on(&mut simplified, &levels);
+            map = map.on_levels(levels);
         }
         Ok(Self { simplified, map, shape, coarse, spaced: is_spaced, folded, hopeless })
     }
 
     /// The worst scaled Jacobian of the coarse mesh, if there is one; as bad as can be where the map is folded.
     pub(crate) fn worst(&self) -> Option<f64> {
-        self.coarse.as_ref().map(|r| r.worst).or(self.hopeless.then_some(-1.0))
+        self.coarse.as_ref().map(|c| c.quality.worst).or(self.hopeless.then_some(-1.0))
     }
 }
 
@@ -111,19 +113,25 @@ fn in_order(
     Ok(result)
 }
 
-/// Untangles the map of the surface. What is returned has a better one, refined for meshing, and the shape to go with it; and how many
-/// triangles are turned over if it is folded all the same.
-fn improve_map(simplified: &mut Simplified, shape: &Mesh, context: &Context) -> Result<(Simplified, Mesh, usize)> {
-    let Simplified { input, polycube: Some(mesh), .. } = simplified else {
-        return Ok((simplified.clone(), shape.clone(), 0));
-    };
-    let mut refined = Refined::new(input, &mesh.points, &shape.points)?;
+/// Untangles the map of the surface. What is returned has a better one, refined for meshing, and the shape to go with
+/// it; and how many triangles are turned over if it is folded all the same.
+fn improve_map(simplified: &mut Simplified, shape: &Mesh, context: &Context) -> Result<(LatticeMap, Mesh, usize)> {
+    let mut map = LatticeMap::new(simplified)?;
+    let mut refined = Refined::new(&map.polycube, &map.mesh.points, &shape.points)?;
     let folded = untangle_surface(&mut refined, context)?;
-    if !mesh.cells.is_volume() {
+    if let Some(mesh) = simplified.polycube.as_mut().filter(|mesh| !mesh.cells.is_volume()) {
         mesh.points.iter_mut().zip(&refined.points).for_each(|(to, from)| *to = *from);
     }
-    let [polycube, shape] = refined.meshes();
-    let mut map = simplified.clone();
-    (map.input, map.polycube) = (refined.polycube, Some(polycube));
+    let [mesh, shape] = refined.meshes();
+    (map.polycube, map.mesh) = (Arc::new(refined.polycube), mesh);
     Ok((map, shape, folded))
+}
+
+/// Moves a simplified polycube onto other levels in the same order.
+fn put_on(simplified: &mut Simplified, levels: &[i64]) {
+    let between = LevelInterpolation::new(&simplified.input.structure, &simplified.levels, levels);
+    if let Some(mesh) = &mut simplified.polycube {
+        between.move_all(&mut mesh.points);
+    }
+    simplified.levels = levels.to_vec();
 }

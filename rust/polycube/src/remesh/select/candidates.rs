@@ -1,5 +1,5 @@
-//! Which of the simplified polycubes is meshed: the coarsest one that a quick coarse mesh finds good, or one with more blocks if the fine
-//! mesh of that is not.
+//! Which of the simplified polycubes is meshed: the coarsest one that a quick coarse mesh finds good, or one with more
+//! blocks if the fine mesh of that is not.
 
 use super::bisection::Bisection;
 use super::candidate::Candidate;
@@ -61,9 +61,10 @@ pub(crate) struct Candidates<'a> {
 }
 
 impl<'a> Candidates<'a> {
-    /// Untangles the surface of the polycube `found` and, if that is wanted, makes coarse meshes of its inside. If it stays folded or
-    /// they are poor, others from the same front with more blocks are tried, until one is good or none gets better. The choice is
-    /// left to the options where they say which point of the front, how far corners may move, or what must hold.
+    /// Untangles the surface of the polycube `found` and, if that is wanted, makes coarse meshes of its inside. If it
+    /// stays folded or they are poor, others from the same front with more blocks are tried, until one is good or none
+    /// gets better. The choice is left to the options where they say which point of the front, how far corners may
+    /// move, or what must hold.
     ///
     /// # Errors
     /// Those of [`Candidate::new`] and [`Simplified::at`].
@@ -101,7 +102,8 @@ impl<'a> Candidates<'a> {
         !self.left.is_empty() && worst < GOOD && (worst <= 0.0 || best(lately) > best(before) + WORTH)
     }
 
-    /// What a mesh of the given point of the front is made from, if it is one of `several` with no coarse mesh where that is in vain.
+    /// What a mesh of the given point of the front is made from, if it is one of `several` with no coarse mesh where
+    /// that is in vain.
     fn candidate(&self, index: usize, several: bool, context: &Context) -> Result<Candidate> {
         let found = self.first.at_index(self.input, index, context)?;
         Candidate::new(self.input, found, self.options, several, context)
@@ -120,8 +122,8 @@ impl<'a> Candidates<'a> {
         candidate
     }
 
-    /// The first candidate. Where the coarse meshes of all others were bad and that of the input would be too coarse to tell, it is not the
-    /// input but one in the middle between them.
+    /// The first candidate. Where the coarse meshes of all others were bad and that of the input would be too coarse to
+    /// tell, it is not the input but one in the middle between them.
     fn opening(&mut self, context: &Context) -> Result<Option<Candidate>> {
         let others = self.tried.len() > 1;
         let end = self.first.report.front.len().checked_sub(1);
@@ -138,8 +140,8 @@ impl<'a> Candidates<'a> {
         middle.map(|k| self.candidate(k, false, context)).transpose()
     }
 
-    /// The next candidate, when the mesh of the point `at` of the front turned out as it did: if hexahedra were poor the next whose
-    /// coarse mesh is good, else the one in the middle of those that come into question.
+    /// The next candidate, when the mesh of the point `at` of the front turned out as it did: if hexahedra were poor
+    /// the next whose coarse mesh is good, else the one in the middle of those that come into question.
     ///
     /// # Errors
     /// Those of [`Candidate::new`] and [`Simplified::at`].
@@ -174,18 +176,18 @@ impl<'a> Candidates<'a> {
     }
 }
 
-/// What the coarse mesh of a candidate promises: worst and average scaled Jacobian in sum, the worst as far as it is not good; nothing
-/// without one, and less than nothing if it has inverted hexahedra, which may be given up half made.
+/// What the coarse mesh of a candidate promises: worst and average scaled Jacobian in sum, the worst as far as it is
+/// not good; nothing without one, and less than nothing if it has inverted hexahedra, which may be given up half made.
 fn value(candidate: &Candidate) -> f64 {
-    let average = candidate.coarse.as_ref().map_or(0.0, |r| r.average);
+    let average = candidate.coarse.as_ref().map_or(0.0, |c| c.quality.mean);
     match candidate.worst() {
         Some(worst) if worst > 0.0 => worst.min(GOOD) + average,
         worst => worst.unwrap_or(0.0),
     }
 }
 
-/// The points of the front to try after the one chosen: each the coarsest that moves corners clearly less far than the one before,
-/// the last the one that moves them least.
+/// The points of the front to try after the one chosen: each the coarsest that moves corners clearly less far than the
+/// one before, the last the one that moves them least.
 fn others(found: &Simplified, options: &RemeshOptions) -> Vec<usize> {
     let wanted = &options.simplify;
     let told = wanted.simplicity.is_some() || wanted.max_displacement.is_some() || wanted.max_distortion.is_some();

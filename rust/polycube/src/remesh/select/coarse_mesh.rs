@@ -1,6 +1,7 @@
 //! A finished mesh of a coarse lattice, from which a finer one starts.
 
 use crate::error::Result;
+use crate::measure::Quality;
 use crate::mesh::Point;
 use crate::remesh::lattice::{Grid, Keys, Padding, rank};
 use crate::remesh::map::{LevelInterpolation, interpolate};
@@ -17,16 +18,14 @@ pub(crate) struct CoarseMesh {
     pub(crate) levels: Vec<i64>,
     /// The lattice's vertices; those on its surface under each padding layer in turn, the outermost last.
     layers: Vec<Vec<Point>>,
-    /// Its worst scaled Jacobian.
-    pub(crate) worst: f64,
-    /// Its mean scaled Jacobian.
-    pub(crate) average: f64,
+    /// Its scaled Jacobians.
+    pub(crate) quality: Quality,
 }
 
 impl CoarseMesh {
     /// Keeps what a finer mesh can start from.
     pub(crate) fn new(remesher: Remesher, hexes: &Hexes, layers: usize) -> Self {
-        let (grid, levels) = (remesher.grid, remesher.simplified.levels.clone());
+        let (grid, levels) = (remesher.grid, remesher.map.levels.clone());
         let padding = Padding::new(&grid, layers);
         let points = &hexes.mesh.points;
         let mut lattice = points[..grid.vertices.len()].to_vec();
@@ -37,7 +36,7 @@ impl CoarseMesh {
             }
             all.push(lattice.clone());
         }
-        Self { grid, levels, layers: all, worst: hexes.worst(), average: hexes.average() }
+        Self { grid, levels, layers: all, quality: hexes.quality() }
     }
 
     /// How long the lattice edges along each axis are in each layer of cells, from the lowest: root mean squares.
@@ -64,7 +63,7 @@ impl CoarseMesh {
     /// Those of [`interpolate`].
     pub(crate) fn start(&self, remesher: &Remesher, hexes: &mut Hexes) -> Result<()> {
         let grid = &remesher.grid;
-        let between = LevelInterpolation::new(remesher.simplified, &remesher.simplified.levels, &self.levels);
+        let between = LevelInterpolation::new(remesher.map.structure(), &remesher.map.levels, &self.levels);
         let layers = self.layers.len() - 1;
         let padding = Padding::new(grid, layers);
         let place = |v: u32, layer: usize| {

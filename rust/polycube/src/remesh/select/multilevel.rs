@@ -9,10 +9,9 @@ use crate::mesh::Mesh;
 use crate::optimise::{Scope, Settings};
 use crate::remesh::fit::{Aim, Improved, improve};
 use crate::remesh::lattice::count_hexes;
-use crate::remesh::map::on_levels;
+use crate::remesh::map::LatticeMap;
 use crate::remesh::mesher::{Hexes, Remesher};
 use crate::remesh::options::RemeshOptions;
-use crate::simplify::Simplified;
 
 /// A mesh of fewer hexahedra needs none coarser to start from,
 const FEW: u64 = 600;
@@ -21,16 +20,15 @@ const FEW_PER_BLOCK: usize = 16;
 /// A lattice of half the levels must have no more than this share of the hexahedra, or it is no help.
 const FEWER: f64 = 0.6;
 
-/// The map onto coarser and coarser lattices of the same order of levels, each about half as fine: the coarsest first, `map`
-/// itself left out. The points between levels are moved in proportion.
+/// The map onto coarser and coarser lattices of the same order of levels, each about half as fine: the coarsest first,
+/// `map` itself left out. The points between levels are moved in proportion.
 ///
 /// # Errors
 /// Those of [`align::rescale`].
-fn coarser(map: &Simplified, padding: usize, context: &Context) -> Result<Vec<Simplified>> {
-    let structure = &map.input.structure;
+fn coarser(map: &LatticeMap, blocks: usize, padding: usize, context: &Context) -> Result<Vec<LatticeMap>> {
+    let structure = map.structure();
     let free = Guides::default();
-    let blocks = map.report.after.map_or(0, |counts| counts.blocks_padded);
-    let mut maps: Vec<Simplified> = Vec::new();
+    let mut maps: Vec<LatticeMap> = Vec::new();
     loop {
         let fine = maps.last().unwrap_or(map);
         let count = count_hexes(structure, &fine.levels, padding);
@@ -42,32 +40,33 @@ fn coarser(map: &Simplified, padding: usize, context: &Context) -> Result<Vec<Si
         if count_hexes(structure, &levels, padding) as f64 > FEWER * count as f64 {
             break;
         }
-        maps.push(on_levels(fine, levels));
+        maps.push(fine.on_levels(levels));
     }
     maps.reverse();
     Ok(maps)
 }
 
-/// The finished mesh of a lattice about half as fine, which started from one half as fine again, and so on; nothing if there
-/// is none. `aim` says how hard to try.
+/// The finished mesh of a lattice about half as fine, which started from one half as fine again, and so on; nothing if
+/// there is none. `aim` says how hard to try.
 ///
 /// # Errors
 /// Those of [`Remesher`] and [`optimise`](crate::optimise::optimise()).
 pub(crate) fn mesh_coarsely(
-    map: &Simplified,
+    map: &LatticeMap,
+    blocks: usize,
     shape: &Mesh,
     options: &RemeshOptions,
     aim: Aim,
     context: &Context,
 ) -> Result<Option<CoarseMesh>> {
-    let maps = coarser(map, options.padding, context)?;
+    let maps = coarser(map, blocks, options.padding, context)?;
     let mut coarse: Option<CoarseMesh> = None;
     for (i, map) in maps.iter().enumerate() {
         let [from, to] = [i, i + 1].map(|k| k as f64 / maps.len() as f64);
         let context = context.stage("map", from, to);
         let map = match &coarse {
             Some(coarse) if options.has_flexible_levels() => {
-                on_levels(map, spaced(map, coarse, options.padding, &context)?)
+                map.on_levels(spaced(map, coarse, options.padding, &context)?)
             }
             _ => map.clone(),
         };
@@ -79,8 +78,9 @@ pub(crate) fn mesh_coarsely(
     Ok(coarse)
 }
 
-/// Improves `hexes`, starting from the mesh of a coarser lattice; where that leaves hexahedra inverted, as they are; and then by moving
-/// all of the mesh to untangle it, which takes longer, unless it is only a trial. The one with the fewest inverted hexahedra is kept.
+/// Improves `hexes`, starting from the mesh of a coarser lattice; where that leaves hexahedra inverted, as they are;
+/// and then by moving all of the mesh to untangle it, which takes longer, unless it is only a trial. The one with the
+/// fewest inverted hexahedra is kept.
 ///
 /// # Errors
 /// Those of [`optimise`](crate::optimise::optimise()).
@@ -92,7 +92,7 @@ pub(crate) fn finish(
     aim: Aim,
     context: &Context,
 ) -> Result<Improved> {
-    let coarse = coarse.filter(|r| r.worst > 0.0);
+    let coarse = coarse.filter(|r| r.quality.worst > 0.0);
     let started = coarse.as_ref().map(|coarse| (Some(coarse), Scope::NearFirst));
     let ways = [started, Some((None, Scope::NearFirst)), (aim != Aim::Trial).then_some((None, Scope::Whole))];
     let mut best: Option<(usize, Hexes, Improved)> = None;
@@ -100,8 +100,8 @@ pub(crate) fn finish(
         let mut tried = hexes.clone();
         coarse.map_or(Ok(()), |coarse| coarse.start(remesher, &mut tried))?;
         let settings = Settings { scope, ..options.optimise.clone() };
-        let improved = improve(remesher.simplified, &mut tried, remesher.shape, &settings, aim, context)?;
-        let inverted = tried.inverted();
+        let improved = improve(&remesher.map.polycube, &mut tried, remesher.shape, &settings, aim, context)?;
+        let inverted = tried.quality().inverted;
         if best.as_ref().is_none_or(|best| inverted < best.0) {
             best = Some((inverted, tried, improved));
         }

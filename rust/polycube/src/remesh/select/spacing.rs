@@ -5,27 +5,30 @@ use crate::align::{self, Guides};
 use crate::context::Context;
 use crate::error::Result;
 use crate::remesh::lattice::{ScaleSearch, count_hexes};
-use crate::simplify::Simplified;
+use crate::remesh::map::LatticeMap;
 
-/// New levels for `map` in the order they have and with about as many hexahedra: the steps between two levels as many as the
-/// lattice edges of `coarse` there are long on the shape.
+/// New levels for `map` in the order they have and with about as many hexahedra: the steps between two levels as many
+/// as the lattice edges of `coarse` there are long on the shape.
 ///
 /// # Errors
 /// Those of [`align::rescale`].
-pub(crate) fn spaced(map: &Simplified, coarse: &CoarseMesh, padding: usize, context: &Context) -> Result<Vec<i64>> {
-    let structure = &map.input.structure;
+pub(crate) fn spaced(map: &LatticeMap, coarse: &CoarseMesh, padding: usize, context: &Context) -> Result<Vec<i64>> {
+    let structure = map.structure();
     let targets = positions(map, coarse);
     let wanted = count_hexes(structure, &map.levels, padding) as f64;
-    let search = ScaleSearch { simplified: map, targets: &targets, padding, wanted };
+    let free = Guides::default();
+    let levels_at =
+        |scale: f64, context: &Context| align::rescale(structure, &targets, &map.levels, scale, &free, context);
+    let search = ScaleSearch { structure, targets: &targets, levels_at: &levels_at, padding, wanted };
     let scale = search.run(context)?;
-    align::rescale(structure, &targets, &map.levels, scale, &Guides::default(), context)
+    levels_at(scale, context)
 }
 
 /// Where each level would lie if lattice steps were as long as on the shape, from 0 for the lowest of each axis.
-fn positions(map: &Simplified, coarse: &CoarseMesh) -> Vec<f64> {
+fn positions(map: &LatticeMap, coarse: &CoarseMesh) -> Vec<f64> {
     let mut targets = vec![0.0; coarse.levels.len()];
     for (axis, lengths) in coarse.lengths().into_iter().enumerate() {
-        let mut own: Vec<usize> = (0..targets.len()).filter(|&l| map.input.structure.levels[l].axis == axis).collect();
+        let mut own: Vec<usize> = (0..targets.len()).filter(|&l| map.structure().levels[l].axis == axis).collect();
         own.sort_by_key(|&l| (coarse.levels[l], l));
         let Some(&first) = own.first() else { continue };
         let lowest = coarse.levels[first];

@@ -6,12 +6,13 @@ mod pipeline;
 mod quality;
 mod surface;
 
-use super::{Hexes, Remesher};
+use super::{Hexes, LatticeMap, Remesher};
 use crate::align::Strategy;
 use crate::context::Context;
 use crate::generate::{Example, example};
 use crate::mesh::{CellKind, Cells, Mesh, Point};
 use crate::simplify::{Input, Options, Simplified, simplify};
+use std::sync::OnceLock;
 
 /// Algorithm 1, which takes less time than the default.
 fn paper() -> Options {
@@ -24,6 +25,8 @@ struct Case {
     polycube: Mesh,
     shape: Mesh,
     simplified: Simplified,
+    /// What it is meshed from, made when it is.
+    map: OnceLock<LatticeMap>,
 }
 
 impl Case {
@@ -34,7 +37,7 @@ impl Case {
     fn with(options: &Options, name: String, (polycube, shape): (Mesh, Mesh)) -> Self {
         let input = Input { polycube: &polycube, shape: Some(&shape), labels: None };
         let simplified = simplify(&input, options, &Context::default()).unwrap();
-        Self { name, polycube, shape, simplified }
+        Self { name, polycube, shape, simplified, map: OnceLock::new() }
     }
 
     fn input(&self) -> Input<'_> {
@@ -47,11 +50,13 @@ impl Case {
         let size = super::Size::Hexes(hexes);
         let scale = super::scale_for(&self.input(), &self.simplified, size, padding, &context).unwrap();
         self.simplified = self.simplified.rescaled(&self.input(), scale, &context).unwrap();
+        self.map = OnceLock::new();
         self
     }
 
     fn remesher(&self) -> Remesher<'_> {
-        Remesher::new(&self.simplified, &self.shape, &Context::default()).unwrap()
+        let map = self.map.get_or_init(|| LatticeMap::new(&self.simplified).unwrap());
+        Remesher::new(map, &self.shape, &Context::default()).unwrap()
     }
 }
 

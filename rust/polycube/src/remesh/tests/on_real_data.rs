@@ -4,9 +4,9 @@ use super::{Case, paper, quality};
 use crate::align::Strategy;
 use crate::context::Context;
 use crate::data::folder;
+use crate::measure::hausdorff::{diagonal, hausdorff};
 use crate::mesh::{Mesh, read_pair};
-use crate::remesh::report::diagonal;
-use crate::remesh::{Remesher, hausdorff};
+use crate::remesh::Remesher;
 use crate::simplify::Options;
 use std::time::Instant;
 
@@ -79,7 +79,7 @@ fn numbers_of_real_pairs() {
         let diagonal = diagonal(&case.shape);
         let (inverted, worst, mean) = quality(&hexes);
         let blocks =
-            super::distinct(&crate::remesh::base_complex(super::cells(&hexes.mesh), &Context::default()).unwrap());
+            super::distinct(&crate::measure::base_complex(super::cells(&hexes.mesh), &Context::default()).unwrap());
         assert_eq!(blocks, case.simplified.report.after.unwrap().blocks_padded, "{}", case.name);
         println!(
             "{} wanted {} got {} inverted {inverted} min {worst:.3} avg {mean:.3} guessed {} flipped in {} hausdorff {:.3}% | simplify {simplified} size {sized} grid {grid} quads {quad_time} hexes {hex_time} hausdorff {} total {:.2} | {:?}",

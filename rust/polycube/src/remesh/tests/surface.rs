@@ -4,10 +4,11 @@ use super::{Case, quality};
 use crate::align::Strategy;
 use crate::context::Context;
 use crate::generate::{Example, example};
+use crate::measure::hausdorff;
 use crate::mesh::{CellKind, Face, Mesh, Point};
-use crate::optimise::Nearest;
-use crate::remesh::{Carrier, hausdorff};
+use crate::remesh::Carrier;
 use crate::simplify::Options;
+use crate::spatial::Nearest;
 
 fn size(mesh: &Mesh) -> f64 {
     mesh.points.iter().map(|p| p.coords.norm()).fold(0.0, f64::max)

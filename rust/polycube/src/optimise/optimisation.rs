@@ -17,7 +17,7 @@ const HALVINGS: usize = 6;
 const RETREATS: usize = 40;
 
 /// One optimisation.
-pub(super) struct Problem<'a> {
+pub(super) struct Optimisation<'a> {
     pub(super) elements: &'a Elements,
     pub(super) assembly: Assembly<'a>,
     pub(super) constraints: Constraints<'a>,
@@ -27,7 +27,7 @@ pub(super) struct Problem<'a> {
     pub(super) iterations: usize,
 }
 
-impl<'a> Problem<'a> {
+impl<'a> Optimisation<'a> {
     pub(super) fn new(elements: &'a Elements, constraints: Constraints<'a>, count: usize) -> Self {
         let assembly = Assembly::new(elements, count);
         Self { elements, assembly, constraints, scales: scales(elements, count), iterations: 0 }
@@ -53,8 +53,9 @@ impl<'a> Problem<'a> {
         Ok(1.0 - energies[energies.len() - 1] / energies[0])
     }
 
-    /// Puts the sliding vertices of `to` on their guides. Where that gives an element no more than the quality `bar`, its
-    /// vertices go back towards `from`, which is on the guides and above the bar, until all is well: `from` at worst.
+    /// Puts the sliding vertices of `to` on their guides. Where that gives an element no more than the quality `bar`,
+    /// its vertices go back towards `from`, which is on the guides and above the bar, until all is well: `from` at
+    /// worst.
     pub(super) fn settle(&mut self, from: &[Point], to: &mut [Point], bar: f64, context: &Context) -> Result<()> {
         let mut blend = vec![1.0_f64; to.len()];
         let target = to.to_vec();

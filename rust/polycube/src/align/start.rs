@@ -1,9 +1,9 @@
 //! Where the search begins: a valid order near the input that respects the guides.
 
-use super::resolved::Guided;
-use crate::align::judge::Judge;
-use crate::align::ranks::Ranks;
-use crate::align::search::Moves;
+use super::guides::Guided;
+use super::judge::{Judge, is_valid};
+use super::ranks::Ranks;
+use super::search::Moves;
 use crate::context::Context;
 use crate::error::{Error, ErrorKind, Result};
 use crate::rng::SplitMix64;
@@ -12,8 +12,8 @@ use crate::structure::{Arrangement, Placement, Structure};
 /// Moves tried per level to make the input respect the guides.
 const STEPS_PER_LEVEL: usize = 400;
 
-/// A valid placement that respects `guided`: the input itself, the input with what must be equal or mirrored at its mean, or, if
-/// neither does, one found by random moves, in numbers of planes.
+/// A valid placement that respects `guided`: the input itself, the input with what must be equal or mirrored at its
+/// mean, or, if neither does, one found by random moves, in numbers of planes.
 ///
 /// # Errors
 /// [`ErrorKind::Infeasible`] if none is found; [`ErrorKind::Cancelled`].
@@ -27,11 +27,6 @@ pub fn guided_start(structure: &Structure, input: &[f64], guided: &Guided, conte
         return Ok(averaged);
     }
     repaired(structure, input, guided, context)
-}
-
-/// Whether the surface is embedded with its solid side inside.
-pub fn is_valid(arrangement: &Arrangement) -> bool {
-    arrangement.conflicts().is_empty() && arrangement.inside_out().is_empty()
 }
 
 /// A walk over valid orders from that of the input that never gets farther from the guides.

@@ -8,7 +8,7 @@ use crate::structure::{Polycube, Tolerance, Violation};
 const SKEW: usize = 5;
 
 /// The error of a mesh that is not a polycube.
-pub fn blame(violations: Vec<Violation>, input: &Input, tolerance: &Tolerance) -> Error {
+pub fn diagnose(violations: Vec<Violation>, input: &Input, tolerance: &Tolerance) -> Error {
     let remedy = remedy(&violations, input, tolerance);
     let count = violations.len();
     let error = first_of_many(violations.into_iter().next().unwrap_or(Violation::Empty), count);

@@ -4,7 +4,7 @@ use crate::error::{Error, ErrorKind, Place, Result};
 use crate::mesh::Mesh;
 
 /// Fails unless every point is finite and every vertex index below the number of points.
-pub(super) fn check_mesh(mesh: &Mesh) -> Result<()> {
+pub(crate) fn check_mesh(mesh: &Mesh) -> Result<()> {
     let finite = |p: &crate::mesh::Point| p.coords.iter().all(|c| c.is_finite());
     if let Some(v) = mesh.points.iter().position(|p| !finite(p)) {
         return Err(Error::new(ErrorKind::Mesh, "its position is not finite")

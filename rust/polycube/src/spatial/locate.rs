@@ -13,19 +13,19 @@ const SLACK: f64 = 1e-9;
 const NEAREST: usize = 24;
 
 /// Simplices by their boxes.
-pub(crate) struct Boxes<P: Point> {
+pub(crate) struct SimplexIndex<P: Point> {
     index: RTree<Item<P>>,
 }
 
 /// Where a point was found.
-pub(crate) struct Found<const N: usize> {
+pub(crate) struct Location<const N: usize> {
     pub(crate) simplex: u32,
     pub(crate) weights: [f64; N],
     /// Whether the simplex holds the point; if not it is just near.
     pub(crate) inside: bool,
 }
 
-impl<P: Point<Scalar = f64>> Boxes<P> {
+impl<P: Point<Scalar = f64>> SimplexIndex<P> {
     /// An index over the boxes from the lower to the upper corner. O(n log n).
     pub(crate) fn new(boxes: impl Iterator<Item = (P, P, u32)>) -> Self {
         let items = boxes.map(|(low, high, i)| Item::new(Rectangle::from_corners(low, high), i));
@@ -41,7 +41,7 @@ impl<P: Point<Scalar = f64>> Boxes<P> {
         point: P,
         coordinates: impl Fn(u32) -> Option<Barycentric<N>>,
         gap: impl Fn(u32, [f64; N]) -> f64,
-    ) -> Option<Found<N>> {
+    ) -> Option<Location<N>> {
         let around = self.index.locate_in_envelope_intersecting(AABB::from_point(point.clone())).map(|i| i.data);
         let candidates = around.filter_map(|i| Some((i, coordinates(i)?)));
         let holding = candidates.filter(|(_, b)| b.depth() >= -SLACK);
@@ -50,7 +50,7 @@ impl<P: Point<Scalar = f64>> Boxes<P> {
             |a: &(bool, f64, u32), b: &(bool, f64, u32)| a.0.cmp(&b.0).then(a.1.total_cmp(&b.1)).then(b.2.cmp(&a.2));
         let best = holding.max_by(|a, b| better(&rank(a), &rank(b)));
         match best {
-            Some((simplex, b)) => Some(Found { simplex, weights: b.clamped(), inside: true }),
+            Some((simplex, b)) => Some(Location { simplex, weights: b.clamped(), inside: true }),
             None => self.nearest(point, coordinates, gap),
         }
     }
@@ -60,14 +60,14 @@ impl<P: Point<Scalar = f64>> Boxes<P> {
         point: P,
         coordinates: impl Fn(u32) -> Option<Barycentric<N>>,
         gap: impl Fn(u32, [f64; N]) -> f64,
-    ) -> Option<Found<N>> {
+    ) -> Option<Location<N>> {
         let near = self.index.nearest_neighbor_iter(point).take(NEAREST).map(|i| i.data);
         let measured = near.filter_map(|i| {
             let weights = coordinates(i)?.clamped();
             Some((gap(i, weights), i, weights))
         });
         let best = measured.min_by(|a, b| a.0.total_cmp(&b.0).then(a.1.cmp(&b.1)))?;
-        Some(Found { simplex: best.1, weights: best.2, inside: false })
+        Some(Location { simplex: best.1, weights: best.2, inside: false })
     }
 }
 

@@ -3,9 +3,9 @@
 use super::Settings;
 use super::elements::Elements;
 use super::freedom::{Constraints, Freedom};
-use super::problem::Problem;
+use super::optimisation::Optimisation;
 use super::region::{Region, Room, regions};
-use super::untangle::{Effort, untangle as untangle_all};
+use super::untangle::{Effort, untangle_all};
 use crate::context::Context;
 use crate::error::Result;
 use crate::mesh::Point;
@@ -14,7 +14,8 @@ use rayon::prelude::*;
 /// How much around inverted cells moves: little at first, more where that is not enough.
 const ROOMS: [Room; 2] = [Room { rings: 2, elements: 50 }, Room { rings: 4, elements: 200 }];
 
-/// Regions that have more than this part of all cells together are left alone, the largest first: moving all is no more work then.
+/// Regions that have more than this part of all cells together are left alone, the largest first: moving all is no more
+/// work then.
 const LARGE: f64 = 0.25;
 /// But not where they have fewer elements than this, which take a second at most.
 const SMALL: usize = 50_000;
@@ -22,10 +23,10 @@ const SMALL: usize = 50_000;
 /// Rounds in which a region must get much better.
 const PATIENCE: usize = 3;
 
-/// Untangles the regions around inverted cells, each by itself. Returns how many cells are still inverted. Sliding vertices are on their
-/// guides before and after.
-pub(super) fn untangle(
-    problem: &mut Problem,
+/// Untangles the regions around inverted cells, each by itself. Returns how many cells are still inverted. Sliding
+/// vertices are on their guides before and after.
+pub(super) fn untangle_near(
+    problem: &mut Optimisation,
     points: &mut [Point],
     settings: &Settings,
     context: &Context,
@@ -47,7 +48,7 @@ pub(super) fn untangle(
 
 /// No region sees what moves in another, so all are done at once.
 fn untangle_regions(
-    problem: &mut Problem,
+    problem: &mut Optimisation,
     points: &mut [Point],
     regions: &[Region],
     settings: &Settings,
@@ -57,8 +58,9 @@ fn untangle_regions(
         |i: usize| context.stage("untangle", i as f64 / regions.len() as f64, (i + 1) as f64 / regions.len() as f64);
     let effort = Effort { patience: PATIENCE, ..Effort::new(settings) };
     let (elements, constraints) = (problem.elements, &problem.constraints);
-    let solve =
-        |(i, region)| Part::new(elements, constraints, region).untangled(constraints, points, &effort, &part(i));
+    let solve = |(i, region)| {
+        LocalProblem::new(elements, constraints, region).untangled(constraints, points, &effort, &part(i))
+    };
     let solved = regions.par_iter().enumerate().map(solve).collect::<Result<Vec<_>>>()?;
     for (iterations, moves) in solved {
         problem.iterations += iterations;
@@ -70,13 +72,13 @@ fn untangle_regions(
 }
 
 /// The cells of a region with their vertices numbered anew; those that do not move in it are held.
-struct Part {
+struct LocalProblem {
     vertices: Vec<u32>,
     elements: Elements,
     freedom: Vec<Freedom>,
 }
 
-impl Part {
+impl LocalProblem {
     fn new(elements: &Elements, constraints: &Constraints, region: &Region) -> Self {
         let mut vertices: Vec<u32> = region.cells.iter().flat_map(|&c| elements.vertices_of(c as usize)).collect();
         vertices.sort_unstable();
@@ -101,7 +103,7 @@ impl Part {
         self.elements.match_size(&points);
         let mut constraints = Constraints::new(&self.freedom, constraints.guides)?;
         constraints.project(&mut points);
-        let mut problem = Problem::new(&self.elements, constraints, points.len());
+        let mut problem = Optimisation::new(&self.elements, constraints, points.len());
         let before = problem.assembly.census(&points).inverted;
         untangle_all(&mut problem, &mut points, effort, context)?;
         let better = problem.assembly.census(&points).inverted < before;

@@ -3,7 +3,7 @@
 use crate::context::Context;
 use crate::error::{Error, ErrorKind, Result};
 use crate::mesh::{Face, Mesh, Point};
-use crate::optimise::Nearest;
+use crate::spatial::Nearest;
 use rayon::prelude::*;
 
 /// Vertices or faces between two looks at the context: some milliseconds' work.
@@ -15,8 +15,8 @@ const SAMPLES: usize = 4;
 /// The Hausdorff distance between the surfaces of two meshes, in their units: how far the point of one that is farthest
 /// from the other is from it, both ways.
 ///
-/// Sampled: at the vertices, at a 4 × 4 grid over each quadrilateral and at the centre of each triangle; so it is a lower
-/// bound, within the size of a face of the truth. The distance from each sample to the other surface is exact, a
+/// Sampled: at the vertices, at a 4 × 4 grid over each quadrilateral and at the centre of each triangle; so it is a
+/// lower bound, within the size of a face of the truth. The distance from each sample to the other surface is exact, a
 /// quadrilateral counting as four triangles around its centre where it bends. O(n log n) for n faces of both.
 ///
 /// # Errors
@@ -115,4 +115,17 @@ pub(crate) fn triangles(mesh: &Mesh, face: &Face) -> Vec<[Point; 3]> {
             (0..4).map(|k| [p[k], p[(k + 1) % 4], centre]).collect()
         }
     }
+}
+
+/// The diagonal of the bounding box of the points that cells use.
+pub(crate) fn diagonal(mesh: &Mesh) -> f64 {
+    let mut low = [f64::INFINITY; 3];
+    let mut high = [f64::NEG_INFINITY; 3];
+    for v in (0..mesh.cells.len()).flat_map(|i| mesh.cells.cell(i)) {
+        for a in 0..3 {
+            let x = mesh.points[*v as usize][a];
+            (low[a], high[a]) = (low[a].min(x), high[a].max(x));
+        }
+    }
+    (0..3).map(|a| (high[a] - low[a]).powi(2)).sum::<f64>().sqrt()
 }

@@ -5,7 +5,7 @@ use petgraph::unionfind::UnionFind;
 
 /// A connected part of a problem. Pairs and differences use positions in `variables`.
 #[derive(Default)]
-pub(super) struct Part {
+pub(super) struct Subproblem {
     /// The variables of the problem that belong to this part, ascending.
     pub variables: Vec<usize>,
     /// Pairs of distinct variables.
@@ -15,7 +15,7 @@ pub(super) struct Part {
 }
 
 /// The parts of `problem` in the order of their first variables. Linear constraints are ignored.
-pub(super) fn split(problem: &Problem) -> Vec<Part> {
+pub(super) fn split(problem: &Problem) -> Vec<Subproblem> {
     let mut joined = UnionFind::<u32>::new(problem.len());
     let pairs = problem.pairs.iter().map(|p| (p.a, p.b));
     let differences = problem.differences.iter().map(|d| (d.low, d.high));
@@ -37,12 +37,12 @@ pub(super) fn split(problem: &Problem) -> Vec<Part> {
 }
 
 /// Parts with their variables, and for each variable its part and its position there.
-fn number(joined: UnionFind<u32>) -> (Vec<Part>, Vec<(usize, u32)>) {
-    let mut parts: Vec<Part> = Vec::new();
+fn number(joined: UnionFind<u32>) -> (Vec<Subproblem>, Vec<(usize, u32)>) {
+    let mut parts: Vec<Subproblem> = Vec::new();
     let mut part_of_set = vec![None; joined.len()];
     let place = |(v, set): (usize, u32)| {
         let part = *part_of_set[set as usize].get_or_insert_with(|| {
-            parts.push(Part::default());
+            parts.push(Subproblem::default());
             parts.len() - 1
         });
         parts[part].variables.push(v);

@@ -5,9 +5,10 @@
 //! every order of the other, as long as they stay separate along this axis. So the least sum is the sum of the least,
 //! and so are lower bounds.
 
-use super::Found;
-use super::anneal::{Chain, State};
+use super::SearchResult;
+use super::anneal::Chain;
 use super::front::Front;
+use super::state::State;
 use crate::align::Task;
 use crate::align::classes::Classes;
 use crate::align::guides::Guided;
@@ -20,7 +21,7 @@ use crate::error::Result;
 use crate::structure::{Corner, Edge, Facet, Side, Structure};
 
 /// A part of a structure with a structure of its own.
-pub struct Part {
+pub struct Component {
     /// The structure of this part.
     pub structure: Structure,
     /// The level of the whole that each of its levels is.
@@ -30,7 +31,7 @@ pub struct Part {
 type Extent = ([f64; 3], [f64; 3]);
 
 /// The parts of a structure whose boxes are pairwise separate in `placement`; one if there is nothing to tell apart.
-pub fn split(structure: &Structure, placement: &[f64]) -> Vec<Part> {
+pub fn split(structure: &Structure, placement: &[f64]) -> Vec<Component> {
     let component = structure.components();
     let count = component.iter().max().map_or(0, |c| *c as usize + 1);
     let mut group: Vec<usize> = (0..count).collect();
@@ -43,7 +44,7 @@ pub fn split(structure: &Structure, placement: &[f64]) -> Vec<Part> {
     names.dedup();
     names
         .into_iter()
-        .map(|name| Part::new(structure, |facet| group[component[facet as usize] as usize] == name))
+        .map(|name| Component::new(structure, |facet| group[component[facet as usize] as usize] == name))
         .collect()
 }
 
@@ -71,7 +72,7 @@ fn touching(extents: &[Option<Extent>]) -> Option<(usize, usize)> {
     })
 }
 
-impl Part {
+impl Component {
     fn new(whole: &Structure, holds: impl Fn(u32) -> bool) -> Self {
         let facets: Vec<u32> = (0..whole.facets.len() as u32).filter(|&f| holds(f)).collect();
         let edges: Vec<u32> = (0..).zip(&whole.edges).filter(|(_, e)| holds(e.facets[0])).map(|(i, _)| i).collect();
@@ -137,8 +138,8 @@ fn ascending(items: impl Iterator<Item = u32>) -> Vec<u32> {
 /// saves most displacement for a block. What does not fit together is left out.
 pub fn combine(
     task: &Task,
-    parts: &[Part],
-    found: &[Found],
+    parts: &[Component],
+    found: &[SearchResult],
     chain: &mut Chain,
     front: &mut Front,
     context: &Context,
@@ -161,7 +162,7 @@ pub fn combine(
 
 /// One order of all levels that has the given order in each part and keeps the parts separate, as near to the input as
 /// it can be; nothing if that is not valid.
-fn merged(task: &Task, parts: &[Part], states: &[&State], context: &Context) -> Result<Option<Ranks>> {
+fn merged(task: &Task, parts: &[Component], states: &[&State], context: &Context) -> Result<Option<Ranks>> {
     let structure = task.structure;
     let fine = Unit::of(structure, task.input).apply(structure, task.input);
     let mut classes = Classes::new(fine.len());
@@ -196,7 +197,7 @@ fn merged(task: &Task, parts: &[Part], states: &[&State], context: &Context) -> 
 
 /// What keeps every two parts separate along the axis on which they are farthest apart in the start: the highest plane
 /// of the one, in the order given, below the lowest of the other.
-fn separations(task: &Task, parts: &[Part], states: &[&State]) -> Vec<Difference> {
+fn separations(task: &Task, parts: &[Component], states: &[&State]) -> Vec<Difference> {
     let end = |k: usize, axis: usize, key: &dyn Fn(usize) -> f64| {
         let own = (0..parts[k].levels.len()).filter(|&l| parts[k].structure.levels[l].axis == axis);
         own.max_by(|&a, &b| key(a).total_cmp(&key(b))).map_or(0, |l| parts[k].levels[l])

@@ -1,14 +1,15 @@
 //! Meshes as tetrahedra, to be untangled.
 
+use crate::measure::tetrahedron_volume;
 use crate::mesh::hexahedron::corner_tetrahedra;
 use crate::mesh::{Cells, Face, Mesh, Point};
-use crate::optimise::{Freedom, tetrahedron_volume};
+use crate::optimise::Freedom;
 use crate::structure::{Label, Polycube, area_vector};
 use nalgebra::Vector3;
 
 /// A mesh as the tetrahedra at the corners of its cells. Those of a surface have a vertex of their own that floats in a
 /// plane above the face, so that a tetrahedron is inverted just where the face is.
-pub(crate) struct Corners {
+pub(crate) struct CornerTetrahedra {
     /// How many of the points are vertices of the mesh; the others float.
     pub(super) vertices: usize,
     pub(crate) tetrahedra: Vec<[u32; 4]>,
@@ -17,8 +18,9 @@ pub(crate) struct Corners {
     pub(crate) freedom: Vec<Freedom>,
 }
 
-impl Corners {
-    /// The cells of `mesh`, which shall look as in `shape`. Vertices slide in their facets; those on polycube edges are held.
+impl CornerTetrahedra {
+    /// The cells of `mesh`, which shall look as in `shape`. Vertices slide in their facets; those on polycube edges are
+    /// held.
     pub(super) fn new(polycube: &Polycube, mesh: &Mesh, shape: &[Point]) -> Self {
         let mut corners = Self::held(polycube, &mesh.points, shape);
         match &mesh.cells {

@@ -1,6 +1,6 @@
 //! Solutions of difference constraints alone, by longest paths, and the cycle that proves there are none.
 
-use crate::align::problem::Difference;
+use crate::align::difference::Difference;
 use crate::error::{Error, ErrorKind, Result};
 
 /// At most this many variables of a contradictory cycle are written out.

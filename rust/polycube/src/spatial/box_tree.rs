@@ -1,13 +1,13 @@
-//! Boxes in a tree, for the question which of them meet a given one.
+//! BoxTree in a tree, for the question which of them meet a given one.
 
 /// Leaves hold up to this many boxes.
 const LEAF: usize = 6;
 
 /// A box by its lower and higher corner.
 #[derive(Clone, Copy)]
-pub(super) struct Extent {
-    pub(super) low: [f64; 3],
-    pub(super) high: [f64; 3],
+pub(crate) struct Extent {
+    pub(crate) low: [f64; 3],
+    pub(crate) high: [f64; 3],
 }
 
 impl Extent {
@@ -50,14 +50,14 @@ struct Node {
 /// A fixed set of closed boxes, each with a number, in a binary tree without pointers: nodes in depth-first order.
 ///
 /// Built in O(n log n); a query visits O(log n) nodes and those around the boxes that it finds.
-pub(super) struct Boxes {
+pub(crate) struct BoxTree {
     nodes: Vec<Node>,
     items: Vec<Item>,
 }
 
-impl Boxes {
+impl BoxTree {
     /// The tree of boxes given by a number, the lower and the higher corner.
-    pub(super) fn new(boxes: impl Iterator<Item = (u32, ([f64; 3], [f64; 3]))>) -> Self {
+    pub(crate) fn new(boxes: impl Iterator<Item = (u32, ([f64; 3], [f64; 3]))>) -> Self {
         let item = |(number, (low, high))| Item { extent: Extent { low, high }, number };
         let mut items: Vec<Item> = boxes.map(item).collect();
         let mut nodes = Vec::with_capacity(items.len() / 2 + 1);
@@ -66,12 +66,12 @@ impl Boxes {
     }
 
     /// Calls `found` with the number of every box that meets the box from `low` to `high`, in a fixed order.
-    pub(super) fn meeting(&self, low: [f64; 3], high: [f64; 3], mut found: impl FnMut(u32)) {
+    pub(crate) fn meeting(&self, low: [f64; 3], high: [f64; 3], mut found: impl FnMut(u32)) {
         self.visit(low, high, |number, _| found(number));
     }
 
     /// As [`meeting`](Self::meeting), but `found` may shrink the box, so that the rest of the search is shorter.
-    pub(super) fn visit(&self, low: [f64; 3], high: [f64; 3], mut found: impl FnMut(u32, &mut Extent)) {
+    pub(crate) fn visit(&self, low: [f64; 3], high: [f64; 3], mut found: impl FnMut(u32, &mut Extent)) {
         let mut wanted = Extent { low, high };
         let mut at = 0;
         while let Some(node) = self.nodes.get(at) {
@@ -123,7 +123,7 @@ mod tests {
         let mut rng = SplitMix64::new(1);
         for count in [0, 1, 6, 7, 100, 1000] {
             let boxes: Vec<_> = (0..count).map(|_| random(&mut rng)).collect();
-            let tree = Boxes::new((0..).zip(boxes.iter().copied()));
+            let tree = BoxTree::new((0..).zip(boxes.iter().copied()));
             for _ in 0..50 {
                 let (low, high) = random(&mut rng);
                 let meets = |b: &([f64; 3], [f64; 3])| (0..3).all(|a| b.0[a] <= high[a] && low[a] <= b.1[a]);

@@ -30,9 +30,9 @@ impl From<Misfit> for Error {
 
 type Checked = Result<(), Misfit>;
 
-/// Refuses labels that are not one for each boundary face, coordinates that are too large, and a shape that does not go with
-/// the polycube or has coordinates that are no numbers. What else the polycube must be, [`Polycube::new`] tells.
-pub(crate) fn check_fit(input: &Input) -> Checked {
+/// Refuses labels that are not one for each boundary face, coordinates that are too large, and a shape that does not go
+/// with the polycube or has coordinates that are no numbers. What else the polycube must be, [`Polycube::new`] tells.
+pub(crate) fn check_compatible(input: &Input) -> Checked {
     input.labels.map_or(Ok(()), |labels| check_labels(labels, input.polycube))?;
     check_size(&input.polycube.points, false)?;
     let Some(shape) = input.shape else { return Ok(()) };
@@ -84,7 +84,8 @@ fn check_size(points: &[Point], in_shape: bool) -> Checked {
     Err(Misfit { rule: "too_large", in_shape, error: Box::new(error) })
 }
 
-/// Refuses a shape of which some part looks inward where that part of the valid polycube looks outward, or the other way round.
+/// Refuses a shape of which some part looks inward where that part of the valid polycube looks outward, or the other
+/// way round.
 pub(crate) fn check_side(polycube: &Polycube, points: &[Point], shape: &[Point]) -> Checked {
     let component = polycube.structure.components();
     let volumes = |points| volumes(polycube, &component, points);
@@ -100,7 +101,8 @@ pub(crate) fn check_side(polycube: &Polycube, points: &[Point], shape: &[Point])
     Err(Misfit { rule: "mirrored", in_shape: true, error: Box::new(error) })
 }
 
-/// The volume that a part of a surface encloses, times 18 or 24, and the sum of the absolute values that it is summed from.
+/// The volume that a part of a surface encloses, times 18 or 24, and the sum of the absolute values that it is summed
+/// from.
 #[derive(Clone, Copy, Default)]
 struct Volume {
     sum: f64,

@@ -6,13 +6,13 @@ use crate::mesh::{Cells, Mesh, Point};
 use nalgebra::Matrix3;
 
 /// The edges from the first vertex of `corner` to the others, as columns.
-pub(super) fn edges(points: &[Point], corner: [u32; 4]) -> Matrix3<f64> {
+pub(crate) fn edges(points: &[Point], corner: [u32; 4]) -> Matrix3<f64> {
     let [o, a, b, c] = corner.map(|v| points[v as usize]);
     Matrix3::from_columns(&[a - o, b - o, c - o])
 }
 
 /// `det(a, b, c) / (|a| |b| |c|)` of three edges, in −1..1; 0 where an edge has no length.
-pub(super) fn corner_jacobian(edges: &Matrix3<f64>) -> f64 {
+pub(crate) fn corner_jacobian(edges: &Matrix3<f64>) -> f64 {
     let lengths = edges.column(0).norm() * edges.column(1).norm() * edges.column(2).norm();
     let determinant = edges.determinant();
     match lengths.is_finite() && determinant.is_finite() {
@@ -63,8 +63,8 @@ pub fn tetrahedron_scaled_jacobian(points: &[Point], tet: &[u32; 4]) -> f64 {
     if largest == 0.0 && det == 0.0 { 0.0 } else { or_worst(quality.clamp(-1.0, 1.0)) }
 }
 
-/// Verdict's scaled Jacobian of a quadrilateral, in −1..1: the minimum over its corners of the sine of their angle, seen
-/// along the normal of its middle. 1 for rectangles, 0 or below where a corner is straight or reflex.
+/// Verdict's scaled Jacobian of a quadrilateral, in −1..1: the minimum over its corners of the sine of their angle,
+/// seen along the normal of its middle. 1 for rectangles, 0 or below where a corner is straight or reflex.
 ///
 /// # Panics
 /// When a vertex is not among `points`.
@@ -131,6 +131,41 @@ pub fn cell_qualities(mesh: &Mesh) -> Result<Vec<(f64, f64)>> {
     }
 }
 
+/// How good the cells of a mesh are by one measure that is not positive for cells that are inverted or flat.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Quality {
+    /// That of each cell.
+    pub of_cell: Vec<f64>,
+    /// How many cells are inverted or flat: those whose quality is not positive.
+    pub inverted: usize,
+    /// The worst, at most 1; 1 for no cell.
+    pub worst: f64,
+    /// The mean; 1 for no cell.
+    pub mean: f64,
+}
+
+impl Quality {
+    /// Sums up the qualities of all cells. Linear time.
+    pub fn new(of_cell: Vec<f64>) -> Self {
+        let mean = if of_cell.is_empty() { 1.0 } else { of_cell.iter().sum::<f64>() / of_cell.len() as f64 };
+        Self {
+            inverted: of_cell.iter().filter(|q| Self::is_inverted(**q)).count(),
+            worst: of_cell.iter().copied().fold(1.0, f64::min),
+            mean,
+            of_cell,
+        }
+    }
+
+    /// The numbers of the cells that are inverted or flat, ascending.
+    pub fn inverted_cells(&self) -> impl Iterator<Item = usize> {
+        self.of_cell.iter().enumerate().filter(|(_, q)| Self::is_inverted(**q)).map(|(cell, _)| cell)
+    }
+
+    fn is_inverted(quality: f64) -> bool {
+        quality.is_nan() || quality <= 0.0
+    }
+}
+
 /// Number of bars of [`Statistics::histogram`].
 pub const BARS: usize = 20;
 
@@ -161,12 +196,12 @@ pub fn statistics(qualities: &[(f64, f64)]) -> Statistics {
         let bar = (q * BARS as f64).clamp(0.0, BARS as f64 - 1.0);
         histogram[bar as usize] += 1;
     }
-    let sum: f64 = qualities.iter().map(|q| q.0).sum();
+    let Quality { of_cell, inverted, worst, mean } = Quality::new(qualities.iter().map(|q| q.0).collect());
     Statistics {
-        cells: qualities.len(),
-        inverted: qualities.iter().filter(|q| q.0.is_nan() || q.0 <= 0.0).count(),
-        min: qualities.iter().map(|q| q.0).fold(1.0, f64::min),
-        average: if qualities.is_empty() { 1.0 } else { sum / qualities.len() as f64 },
+        cells: of_cell.len(),
+        inverted,
+        min: worst,
+        average: mean,
         histogram,
         min_volume: qualities.iter().map(|q| q.1).fold(f64::INFINITY, f64::min),
         volume: qualities.iter().map(|q| q.1).sum(),

@@ -10,7 +10,8 @@ const NONE: u32 = u32::MAX;
 ///
 /// An edge is singular when another number than 4 hexahedra meet at it inside, or than 2 on the boundary. Every
 /// singular edge sends a sheet of faces out of each face at it; a sheet goes straight on over regular edges. Blocks are
-/// what the sheets separate. Nothing but `hexes` (VTK's order) is used, so this also serves to compare meshes of others.
+/// what the sheets separate. Nothing but `hexes` (VTK's order) is used, so this also serves to compare meshes of
+/// others.
 ///
 /// O(n log n) time for n hexahedra, about 400 bytes of passing memory for each.
 ///

@@ -1,14 +1,14 @@
 //! Turns the right way round what the morph turned over, by moving what is near it.
 
-use super::corners::Corners;
+use super::corner_tetrahedra::CornerTetrahedra;
 use crate::context::Context;
 use crate::error::Result;
 use crate::mesh::Mesh;
 use crate::optimise::{Elements, Scope, Settings, optimise};
 use crate::structure::Polycube;
 
-/// In a small region ε may fall fast, from the mean determinant to a hundredth of it; where that is not enough, there is no room. What
-/// is right stays as it is.
+/// In a small region ε may fall fast, from the mean determinant to a hundredth of it; where that is not enough, there
+/// is no room. What is right stays as it is.
 const SETTINGS: Settings = Settings {
     theta: 0.1,
     scope: Scope::Near,
@@ -22,15 +22,15 @@ const SETTINGS: Settings = Settings {
     polish_rounds: 0,
 };
 
-/// Moves vertices of `mesh` inside their facets, and those inside the solid, until no element is turned over or flat, as far
-/// as that goes (foldover-free maps, Garanzha et al. 2021); each element shall look as in `shape`. Vertices on polycube
-/// edges stay where they are. Only what is near elements turned over moves, each place by itself, so it takes next to no time
-/// where there are few.
+/// Moves vertices of `mesh` inside their facets, and those inside the solid, until no element is turned over or flat,
+/// as far as that goes (foldover-free maps, Garanzha et al. 2021); each element shall look as in `shape`. Vertices on
+/// polycube edges stay where they are. Only what is near elements turned over moves, each place by itself, so it takes
+/// next to no time where there are few.
 ///
 /// # Errors
 /// [`ErrorKind::Cancelled`](crate::ErrorKind::Cancelled).
-pub(crate) fn untangle(polycube: &Polycube, mesh: &mut Mesh, shape: &Mesh, context: &Context) -> Result<()> {
-    let mut corners = Corners::new(polycube, mesh, &shape.points);
+pub(crate) fn untangle_morphed(polycube: &Polycube, mesh: &mut Mesh, shape: &Mesh, context: &Context) -> Result<()> {
+    let mut corners = CornerTetrahedra::new(polycube, mesh, &shape.points);
     if corners.turned_over().is_empty() {
         return Ok(());
     }
@@ -45,7 +45,7 @@ pub(crate) fn untangle(polycube: &Polycube, mesh: &mut Mesh, shape: &Mesh, conte
 mod tests {
     use super::*;
     use crate::generate::{Cuboid, Voxels};
-    use crate::map::{Flipped, flipped};
+    use crate::measure::{Flipped, flipped};
     use crate::mesh::{CellKind, Point};
     use crate::structure::Tolerance;
 
@@ -76,7 +76,7 @@ mod tests {
             fold(&mut mesh);
             let folded = mesh.clone();
             assert!(!turned_over(&mesh, &polycube).is_empty());
-            untangle(&polycube, &mut mesh, &shape, &Context::default()).unwrap();
+            untangle_morphed(&polycube, &mut mesh, &shape, &Context::default()).unwrap();
             assert!(turned_over(&mesh, &polycube).is_empty(), "{kind}");
             for (v, levels) in polycube.vertex_levels.iter().enumerate() {
                 let known = levels.iter().flatten().count();
@@ -91,7 +91,7 @@ mod tests {
         for kind in ALL {
             let (shape, polycube) = cube(kind);
             let mut mesh = shape.clone();
-            untangle(&polycube, &mut mesh, &shape, &Context::default()).unwrap();
+            untangle_morphed(&polycube, &mut mesh, &shape, &Context::default()).unwrap();
             assert_eq!(mesh.points, shape.points);
         }
     }
