@@ -21,8 +21,8 @@ set(bridge "${CMAKE_CURRENT_BINARY_DIR}/bridge")
 set(POLYCUBE_CORE_ARCHIVE "${CMAKE_CURRENT_BINARY_DIR}/libpolycube_core.a")
 set(POLYCUBE_BRIDGE_INCLUDE "${bridge}" "${root}/rust")
 
-file(GLOB_RECURSE sources CONFIGURE_DEPENDS "${root}/rust/polycube/src/*.rs" "${root}/rust/polycube-cxx/src/*.rs"
-     "${root}/rust/polycube-cxx/include/*.h")
+file(GLOB_RECURSE sources CONFIGURE_DEPENDS "${root}/rust/polycube/src/*.rs" "${root}/rust/polycube-host/src/*.rs"
+     "${root}/rust/polycube-cxx/src/*.rs" "${root}/rust/polycube-cxx/include/*.h")
 add_custom_command(
   OUTPUT "${POLYCUBE_CORE_ARCHIVE}" "${bridge}/polycube-cxx/src/lib.rs.h" "${bridge}/rust/cxx.h"
   COMMAND "${CMAKE_COMMAND}" -E env "CARGO_TARGET_DIR=${POLYCUBE_CARGO_TARGET_DIR}" "${POLYCUBE_CARGO}" rustc --quiet
@@ -33,7 +33,8 @@ add_custom_command(
   COMMAND "${CMAKE_COMMAND}" -E copy "${header}" "${bridge}/polycube-cxx/src/lib.rs.h"
   COMMAND "${CMAKE_COMMAND}" -E copy "${POLYCUBE_CARGO_TARGET_DIR}/cxxbridge/rust/cxx.h" "${bridge}/rust/cxx.h"
   DEPENDS ${sources} "${root}/Cargo.lock" "${root}/Cargo.toml" "${root}/rust/polycube/Cargo.toml"
-          "${root}/rust/polycube-cxx/Cargo.toml" "${root}/rust/polycube-cxx/build.rs"
+          "${root}/rust/polycube-host/Cargo.toml" "${root}/rust/polycube-cxx/Cargo.toml"
+          "${root}/rust/polycube-cxx/build.rs"
   COMMENT "Building the core with cargo (${POLYCUBE_CARGO_PROFILE})"
   USES_TERMINAL VERBATIM)
 add_custom_target(polycube_core_build DEPENDS "${POLYCUBE_CORE_ARCHIVE}")
