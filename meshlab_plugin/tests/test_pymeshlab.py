@@ -434,7 +434,7 @@ def test_numbers_out_of_range_are_refused(pair, tmp_path):
     fails(layers, "1 or more", "generate_polycube_hex_remesh", file=file, hexes=0)
     fails(layers, "0 to 16", "generate_polycube_hex_remesh", file=file, padding=17)
     fails(layers, "0 to 16", "generate_polycube_hex_remesh", file=file, padding=-1)
-    fails(layers, "positive", "generate_polycube_quad_remesh", edge_length=ml.PureValue(0.0))
+    fails(layers, "edge_length is 0.*above 0", "generate_polycube_quad_remesh", edge_length=ml.PureValue(0.0))
     fails(layers, "scale", "generate_polycube_simplified", lattice_step=ml.PureValue(-1.0))
     fails(layers, "tolerance|45", "compute_polycube_check", angle_tolerance=60.0)
     fails(layers, "tolerance|45", "generate_polycube_simplified", angle_tolerance=60.0)
