@@ -89,7 +89,7 @@ impl Elements {
     /// Hexahedra in VTK's order that should be cubes, all of one size: eight corner tetrahedra each.
     ///
     /// The optimiser then guarantees that the Jacobian is positive at all eight corners. That is what solvers and
-    /// [`scaled_jacobian`](super::scaled_jacobian) check; it does not prove it positive everywhere inside.
+    /// [`scaled_jacobian`](crate::measure::scaled_jacobian()) check; it does not prove it positive everywhere inside.
     pub fn cubes(hexes: &[[u32; 8]]) -> Self {
         let shapes = vec![Matrix3::identity(); 8 * hexes.len()];
         Self::new(corners(hexes), shapes, vec![1.0; 8 * hexes.len()], 8, Measure::ScaledJacobian)

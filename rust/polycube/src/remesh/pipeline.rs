@@ -56,7 +56,7 @@ pub struct Remeshed {
 /// ```
 ///
 /// # Errors
-/// Those of [`simplify()`], [`scale_for`](super::scale_for()), [`Remesher`] and
+/// Those of [`simplify()`], [`scale_for`](super::scale_for()), [`Remesher`](super::Remesher) and
 /// [`optimise`](crate::optimise::optimise()); [`ErrorKind::Option`] for any option out of its range, before anything is
 /// done, and for a size that takes more hexahedra than [`MOST_HEXES`](super::MOST_HEXES); [`ErrorKind::Cancelled`].
 pub fn remesh(input: &Input, options: &RemeshOptions, context: &Context) -> Result<Remeshed> {

@@ -38,8 +38,8 @@ use std::collections::BTreeSet;
 pub struct Guides {
     /// Facets that must not move: the plane of each lies where the input has it, times the scale, rounded to the
     /// lattice. All other facets find their places around them. Two that mirror each other about a plane of
-    /// [`Guides::symmetry`] are an error ([`ErrorKind::Infeasible`](crate::ErrorKind::Infeasible)) where rounding
-    /// leaves no such plane on the lattice.
+    /// [`Guides::symmetry`] are an error ([`ErrorKind::Infeasible`]) where rounding leaves no such plane
+    /// on the lattice.
     pub fixed: Vec<usize>,
     /// Boundary faces whose facets must not move, numbered as [`Cells::boundary`](crate::mesh::Cells::boundary) has
     /// them (for a surface these are its cells).
