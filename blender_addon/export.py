@@ -11,10 +11,12 @@ from bpy.props import EnumProperty, StringProperty
 from . import faults, jobs, quads, settings
 
 FORMATS = (
-    ('.vtu', "VTK (.vtu)", "For ParaView and PyVista, with scaled_jacobian, block_id and label of every hexahedron"),
+    ('.vtu', "VTK (.vtu)", "For ParaView and PyVista, with scaled_jacobian, edge_ratio, block_id and more"),
     ('.vtk', "VTK, old (.vtk)", "For older programs of the same kind, with the same numbers"),
     ('.mesh', "MEDIT (.mesh)", "For Gmsh, Graphite and other mesh generators"),
 )
+# What is written of every hexahedron.
+FIELDS = ("block_id", "label", "scaled_jacobian", "edge_ratio", "determinant", "non_orthogonality", "skewness")
 
 
 class POLYCUBE_OT_write_hexes(jobs.JobOperator, settings.SearchOptions, settings.ToleranceOptions,
@@ -36,7 +38,7 @@ class POLYCUBE_OT_write_hexes(jobs.JobOperator, settings.SearchOptions, settings
     def finish(self, context, read, meshes):
         shape = bpy.data.objects[read.shape_name or read.holder]
         placed = in_scene(shape, meshes.hexes.points / read.shape_size)
-        fields = {name: getattr(meshes.hexes, name) for name in ("block_id", "label", "scaled_jacobian")}
+        fields = {name: getattr(meshes.hexes, name) for name in FIELDS}
         cells = meshes.hexes.cells
         if shape.matrix_world.determinant() < 0.0:
             # A mirrored object turns hexahedra inside out; what was below is above then.
@@ -46,7 +48,8 @@ class POLYCUBE_OT_write_hexes(jobs.JobOperator, settings.SearchOptions, settings
         report = meshes.report
         summary = (
             f"{report['hexes']} hexahedra in {report['hex_blocks']} blocks\n"
-            f"scaled Jacobian {report['min_sj']:.2f} at worst, {report['avg_sj']:.2f} on average"
+            f"scaled Jacobian {report['min_sj']:.2f} at worst, {report['avg_sj']:.2f} on average\n"
+            f"edges differ by {report['edge_ratio']['max']:.1f} at most"
         )
         context.scene.polycube.result.meshed = summary
         self.report({'INFO'}, f"{summary.replace(chr(10), ', ')}: {os.path.basename(self.filepath)}")

@@ -87,6 +87,10 @@ Lines log_of(const Remeshed& result) {
         log.push_back(
             line("scaled Jacobian: smallest ", *report.min_scaled_jacobian, ", mean ", *report.mean_scaled_jacobian));
     }
+    if (report.max_edge_ratio && report.min_determinant) {
+        log.push_back(line("edge ratio: largest ", *report.max_edge_ratio, "; determinant: smallest ",
+                           *report.min_determinant, " of the mean"));
+    }
     log.push_back(line("Hausdorff distance to the shape: ", report.hausdorff_percent, " % of the diagonal"));
     for (const std::string& fault : report.faults) log.push_back("warning: " + fault);
     return log;

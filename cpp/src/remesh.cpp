@@ -36,7 +36,9 @@ QuadMesh quads(const bridge::QuadsData& data) {
 
 HexMesh hexes(const bridge::HexesData& data) {
     return {internal::mesh(data.mesh), internal::vector(data.block_id), internal::vector(data.label),
-            internal::vector(data.scaled_jacobian)};
+            internal::vector(data.scaled_jacobian), internal::vector(data.edge_ratio),
+            internal::vector(data.determinant), internal::vector(data.non_orthogonality),
+            internal::vector(data.skewness)};
 }
 
 RemeshReport report(const bridge::RemeshReportData& data) {
@@ -48,6 +50,10 @@ RemeshReport report(const bridge::RemeshReportData& data) {
     report.released = data.released;
     report.min_scaled_jacobian = internal::real(data.min_sj);
     report.mean_scaled_jacobian = internal::real(data.avg_sj);
+    report.max_edge_ratio = internal::real(data.max_edge_ratio);
+    report.min_determinant = internal::real(data.min_determinant);
+    report.max_non_orthogonality = internal::real(data.max_non_orthogonality);
+    report.max_skewness = internal::real(data.max_skewness);
     report.hausdorff = data.hausdorff;
     report.hausdorff_percent = data.hausdorff_percent;
     report.within_hausdorff = data.within_hausdorff;
@@ -64,7 +70,13 @@ std::vector<CellField> QuadMesh::fields() const {
 }
 
 std::vector<CellField> HexMesh::fields() const {
-    return {integers("block_id", block_id), integers("label", label), {"scaled_jacobian", scaled_jacobian}};
+    return {integers("block_id", block_id),
+            integers("label", label),
+            {"scaled_jacobian", scaled_jacobian},
+            {"edge_ratio", edge_ratio},
+            {"determinant", determinant},
+            {"non_orthogonality", non_orthogonality},
+            {"skewness", skewness}};
 }
 
 std::vector<CellField> Layout::block_fields() const {

@@ -27,6 +27,13 @@ TEST_CASE("a pair becomes layout, quadrilaterals and hexahedra") {
     REQUIRE(hexes.scaled_jacobian.size() == result.report.hexes);
     CHECK(*std::min_element(hexes.scaled_jacobian.begin(), hexes.scaled_jacobian.end()) ==
           *result.report.min_scaled_jacobian);
+    REQUIRE(hexes.edge_ratio.size() == result.report.hexes);
+    CHECK(*std::max_element(hexes.edge_ratio.begin(), hexes.edge_ratio.end()) == *result.report.max_edge_ratio);
+    CHECK(*std::min_element(hexes.determinant.begin(), hexes.determinant.end()) == *result.report.min_determinant);
+    CHECK(*std::max_element(hexes.non_orthogonality.begin(), hexes.non_orthogonality.end()) ==
+          *result.report.max_non_orthogonality);
+    CHECK(*std::max_element(hexes.skewness.begin(), hexes.skewness.end()) == *result.report.max_skewness);
+    CHECK(hexes.fields().size() == 7);
     CHECK(number_of(hexes.block_id) == result.layout.blocks.cell_count());
     CHECK(result.layout.blocks.cell_count() == result.simplified.report().after->blocks_padded);
     CHECK(result.layout.patches.cell_count() == result.simplified.report().after->surface_patches);

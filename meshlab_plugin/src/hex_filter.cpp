@@ -113,6 +113,10 @@ host::Values HexFilter::apply(const Call& call) const {
     values["inverted"] = int(result.report.inverted);
     values["min_scaled_jacobian"] = result.report.min_scaled_jacobian.value_or(0.0);
     values["mean_scaled_jacobian"] = result.report.mean_scaled_jacobian.value_or(0.0);
+    values["max_edge_ratio"] = result.report.max_edge_ratio.value_or(0.0);
+    values["min_determinant"] = result.report.min_determinant.value_or(0.0);
+    values["max_non_orthogonality"] = result.report.max_non_orthogonality.value_or(0.0);
+    values["max_skewness"] = result.report.max_skewness.value_or(0.0);
     values["hausdorff"] = result.report.hausdorff;
     values["good"] = result.report.good;
     return values;

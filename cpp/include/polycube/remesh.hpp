@@ -55,8 +55,13 @@ struct HexMesh {
     std::vector<std::uint32_t> block_id;  ///< The block, from 0: a cell of `Layout::blocks`.
     std::vector<std::int8_t> label;       ///< The label of its facet at the surface, 0 to 5; -1 inside.
     std::vector<double> scaled_jacobian;  ///< The smallest of its corners', -1 to 1; 0 or less is inverted.
+    std::vector<double> edge_ratio;       ///< Longest over shortest edge, at least 1.
+    std::vector<double> determinant;      ///< The least of its corners' over the mean of the mesh.
+    /// The largest angle between a face inside and the line to the middle of the next cell, in degrees (OpenFOAM's).
+    std::vector<double> non_orthogonality;
+    std::vector<double> skewness;  ///< The largest of its faces' (OpenFOAM's), at least 0; more than 4 is bad.
 
-    /// block_id, label, scaled_jacobian for `write_mesh`, as the command writes them.
+    /// All of these but the mesh for `write_mesh`, as the command writes them.
     std::vector<CellField> fields() const;
 };
 
@@ -84,8 +89,12 @@ struct RemeshReport {
     std::uint64_t hex_blocks = 0;  ///< Blocks of the base complex of the hexahedra, counted on the finished mesh.
     std::uint64_t inverted = 0;    ///< Hexahedra whose scaled Jacobian is not positive.
     std::uint64_t released = 0;    ///< Vertices that left polycube corners and edges for the sake of bad hexahedra.
-    std::optional<double> min_scaled_jacobian;   ///< Nothing without hexahedra.
-    std::optional<double> mean_scaled_jacobian;  ///< Nothing without hexahedra.
+    std::optional<double> min_scaled_jacobian;    ///< Nothing without hexahedra.
+    std::optional<double> mean_scaled_jacobian;   ///< Nothing without hexahedra.
+    std::optional<double> max_edge_ratio;         ///< Nothing without hexahedra.
+    std::optional<double> min_determinant;        ///< Over the mean of the mesh; nothing without hexahedra.
+    std::optional<double> max_non_orthogonality;  ///< In degrees; nothing without hexahedra.
+    std::optional<double> max_skewness;           ///< Nothing without hexahedra.
     double hausdorff = 0.0;           ///< Hausdorff distance between quadrilaterals and shape, in units of the shape.
     double hausdorff_percent = 0.0;   ///< The same in percent of the diagonal of the shape's bounding box.
     bool within_hausdorff = false;    ///< Whether that is within `RemeshOptions::max_hausdorff`.

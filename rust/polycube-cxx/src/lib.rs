@@ -208,6 +208,10 @@ mod ffi {
         block_id: Vec<u32>,
         label: Vec<i8>,
         scaled_jacobian: Vec<f64>,
+        edge_ratio: Vec<f64>,
+        determinant: Vec<f64>,
+        non_orthogonality: Vec<f64>,
+        skewness: Vec<f64>,
     }
 
     struct SingularData {
@@ -230,6 +234,10 @@ mod ffi {
         released: u64,
         min_sj: Real,
         avg_sj: Real,
+        max_edge_ratio: Real,
+        min_determinant: Real,
+        max_non_orthogonality: Real,
+        max_skewness: Real,
         hausdorff: f64,
         hausdorff_percent: f64,
         within_hausdorff: bool,

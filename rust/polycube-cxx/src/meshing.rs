@@ -6,6 +6,7 @@ use crate::input::Owned;
 use crate::options::{defaults, options};
 use crate::results::{Simplified, json};
 use crate::run::run;
+use polycube::measure::CellMeasures;
 use polycube::remesh::{self as core, Hexes, Layout, Quads, RemeshOptions, RemeshReport, Remeshed, Size};
 use polycube::{Error, ErrorKind};
 
@@ -73,20 +74,19 @@ impl From<Quads> for QuadsData {
 }
 
 fn hexes_data(hexes: Option<Hexes>) -> HexesData {
-    match hexes {
-        Some(hexes) => {
-            let scaled_jacobian = hexes.quality().of_cell;
-            let Hexes { mesh, block_id, label, .. } = hexes;
-            HexesData { mesh: (&mesh).into(), block_id, label, scaled_jacobian }
-        }
-        None => {
-            HexesData { mesh: MeshData::empty(), block_id: Vec::new(), label: Vec::new(), scaled_jacobian: Vec::new() }
-        }
-    }
+    let scaled_jacobian = hexes.as_ref().map_or_else(Vec::new, |h| h.quality().of_cell);
+    let measures = hexes.as_ref().map(Hexes::measures).unwrap_or_default();
+    let CellMeasures { edge_ratio, determinant, non_orthogonality, skewness } = measures;
+    let (mesh, block_id, label) = match hexes {
+        Some(Hexes { mesh, block_id, label, .. }) => ((&mesh).into(), block_id, label),
+        None => (MeshData::empty(), Vec::new(), Vec::new()),
+    };
+    HexesData { mesh, block_id, label, scaled_jacobian, edge_ratio, determinant, non_orthogonality, skewness }
 }
 
 impl From<&RemeshReport> for RemeshReportData {
     fn from(report: &RemeshReport) -> Self {
+        let measures = report.measures.as_ref();
         Self {
             quads: report.quads as u64,
             hexes: report.hexes as u64,
@@ -95,6 +95,10 @@ impl From<&RemeshReport> for RemeshReportData {
             released: report.released as u64,
             min_sj: report.min_sj.into(),
             avg_sj: report.avg_sj.into(),
+            max_edge_ratio: measures.map(|m| m.edge_ratio.max).into(),
+            min_determinant: measures.map(|m| m.determinant.min).into(),
+            max_non_orthogonality: measures.map(|m| m.non_orthogonality.max).into(),
+            max_skewness: measures.map(|m| m.skewness.max).into(),
             hausdorff: report.hausdorff,
             hausdorff_percent: report.hausdorff_percent,
             within_hausdorff: report.within_hausdorff,

@@ -7,6 +7,7 @@ use crate::report::to_dict;
 use crate::simplified::{PySimplified, Source};
 use crate::work::{Failure, Listener};
 use polycube::Context;
+use polycube::measure::CellMeasures;
 use polycube::mesh::{CellField, Point};
 use polycube::remesh::{Hexes, Layout, Quads, RemeshReport, Remeshed, remesh as run};
 use pyo3::prelude::*;
@@ -128,13 +129,14 @@ struct HexParts {
     label: Vec<i8>,
     block_id: Vec<u32>,
     scaled_jacobian: Vec<f64>,
+    measures: CellMeasures,
 }
 
 impl PyHexes {
     fn new(hexes: Hexes) -> Self {
-        let (fields, scaled_jacobian) = (hexes.fields(), hexes.quality().of_cell);
+        let (fields, scaled_jacobian, measures) = (hexes.fields(), hexes.quality().of_cell, hexes.measures());
         let Hexes { mesh, polycube, block_id, label, .. } = hexes;
-        Self(Arc::new(HexParts { mesh: mesh.into(), polycube, fields, label, block_id, scaled_jacobian }))
+        Self(Arc::new(HexParts { mesh: mesh.into(), polycube, fields, label, block_id, scaled_jacobian, measures }))
     }
 }
 
@@ -180,6 +182,30 @@ impl PyHexes {
     #[getter]
     fn scaled_jacobian<'py>(slf: &Bound<'py, Self>) -> PyResult<Bound<'py, PyAny>> {
         vector(slf, |h| &h.0.scaled_jacobian)
+    }
+
+    /// The longest edge of every hexahedron over its shortest: (m,) float64, 1 for a cube.
+    #[getter]
+    fn edge_ratio<'py>(slf: &Bound<'py, Self>) -> PyResult<Bound<'py, PyAny>> {
+        vector(slf, |h| &h.0.measures.edge_ratio)
+    }
+
+    /// The least corner determinant of every hexahedron over the mean of all: (m,) float64.
+    #[getter]
+    fn determinant<'py>(slf: &Bound<'py, Self>) -> PyResult<Bound<'py, PyAny>> {
+        vector(slf, |h| &h.0.measures.determinant)
+    }
+
+    /// The largest non-orthogonality of every hexahedron's faces, as OpenFOAM defines it: (m,) float64, in degrees.
+    #[getter]
+    fn non_orthogonality<'py>(slf: &Bound<'py, Self>) -> PyResult<Bound<'py, PyAny>> {
+        vector(slf, |h| &h.0.measures.non_orthogonality)
+    }
+
+    /// The largest skewness of every hexahedron's faces, as OpenFOAM defines it: (m,) float64.
+    #[getter]
+    fn skewness<'py>(slf: &Bound<'py, Self>) -> PyResult<Bound<'py, PyAny>> {
+        vector(slf, |h| &h.0.measures.skewness)
     }
 
     /// Writes the mesh with `block_id`, `label` and `scaled_jacobian`, where the format holds them; see `Mesh.write`.
@@ -340,7 +366,8 @@ impl PyRemeshed {
     }
 
     /// What was done and how good it is, as in the command's report.json: that of `Simplified`, and hexes, quads,
-    /// inverted, inverted_cells, min_sj, avg_sj, histogram, volume, hausdorff; seconds has all stages.
+    /// inverted, inverted_cells, min_sj, avg_sj, histogram, edge_ratio, determinant, non_orthogonality, skewness,
+    /// volume, hausdorff; seconds has all stages.
     #[getter]
     fn report<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
         to_dict(py, &self.0.report)

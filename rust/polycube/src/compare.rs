@@ -34,6 +34,14 @@ pub struct Meshing {
     pub min_sj: Option<f64>,
     /// Mean scaled Jacobian; nothing without hexahedra.
     pub avg_sj: Option<f64>,
+    /// Largest ratio of a cell's longest to its shortest edge; nothing without hexahedra.
+    pub max_edge_ratio: Option<f64>,
+    /// Least determinant of a corner over the mean of all; nothing without hexahedra.
+    pub min_determinant: Option<f64>,
+    /// Largest non-orthogonality of a face, in degrees; nothing without hexahedra.
+    pub max_non_orthogonality: Option<f64>,
+    /// Largest skewness of a face; nothing without hexahedra.
+    pub max_skewness: Option<f64>,
     /// Vertices of the quadrilaterals at which other than four meet.
     pub singular_vertices: usize,
     /// Patches and blocks.
@@ -62,10 +70,10 @@ pub struct Gain {
 
 /// Meshes a shape without and with simplification and compares the two (paper, section 7).
 ///
-/// Without simplification every level is rounded to the lattice, as usual pipelines do (`Strategy::Naive`); where that breaks
-/// the polycube, the levels keep the order they have and a note says so. `options.size` says how fine that mesh is.
-/// The other one follows `options` but for the size: it has as many hexahedra as the first as nearly as the lattice allows
-/// (see [`scale_for`](crate::remesh::scale_for)), so that the two compare.
+/// Without simplification every level is rounded to the lattice, as usual pipelines do (`Strategy::Naive`); where that
+/// breaks the polycube, the levels keep the order they have and a note says so. `options.size` says how fine that mesh
+/// is. The other one follows `options` but for the size: it has as many hexahedra as the first as nearly as the lattice
+/// allows (see [`scale_for`](crate::remesh::scale_for)), so that the two compare.
 ///
 /// ```
 /// use polycube::compare::compare;
@@ -103,6 +111,7 @@ impl Meshing {
     fn new(result: &Remeshed) -> Self {
         let report = &result.report;
         let simplified = &report.simplify;
+        let measures = report.measures.as_ref();
         Self {
             strategy: simplified.strategy,
             hexes: report.hexes,
@@ -110,6 +119,10 @@ impl Meshing {
             inverted: report.inverted,
             min_sj: report.min_sj,
             avg_sj: report.avg_sj,
+            max_edge_ratio: measures.map(|m| m.edge_ratio.max),
+            min_determinant: measures.map(|m| m.determinant.min),
+            max_non_orthogonality: measures.map(|m| m.non_orthogonality.max),
+            max_skewness: measures.map(|m| m.skewness.max),
             singular_vertices: singular_vertices(&result.quads.mesh),
             counts: simplified.after.unwrap_or(simplified.before),
             hausdorff: report.hausdorff,

@@ -87,6 +87,12 @@ fn remesh_facts(report: &RemeshReport) -> Vec<(&'static str, String)> {
         facts.push(("inverted", report.inverted.to_string()));
         facts.push(("scaled Jacobian", format!("at least {min:.3}, {average:.3} on average")));
     }
+    if let Some(m) = &report.measures {
+        facts.push(("edge ratio", format!("at most {:.1}, {:.2} on average", m.edge_ratio.max, m.edge_ratio.mean)));
+        facts.push(("determinant", format!("at least {:.4} of the mean", m.determinant.min)));
+        let (angle, skewness) = (m.non_orthogonality.max, m.skewness.max);
+        facts.push(("faces", format!("non-orthogonality at most {angle:.0} degrees, skewness at most {skewness:.2}")));
+    }
     facts.push((
         "Hausdorff distance",
         format!("{} ({:.3} % of the diagonal)", short(report.hausdorff), report.hausdorff_percent),

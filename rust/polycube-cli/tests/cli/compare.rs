@@ -52,6 +52,14 @@ fn same(found: &Value, report: &Value) {
     for key in ["hexes", "quads", "inverted", "min_sj", "avg_sj", "hausdorff", "hausdorff_percent"] {
         assert_eq!(found[key], report[key], "{key}");
     }
+    for (key, whole, part) in [
+        ("max_edge_ratio", "edge_ratio", "max"),
+        ("min_determinant", "determinant", "min"),
+        ("max_non_orthogonality", "non_orthogonality", "max"),
+        ("max_skewness", "skewness", "max"),
+    ] {
+        assert_eq!(found[key], report[whole][part], "{key}");
+    }
     for key in ["surface_patches", "blocks", "blocks_padded"] {
         assert_eq!(found[key], report["after"][key], "{key}");
     }

@@ -1,23 +1,28 @@
 //! What is measured of meshes: the quality of cells, what is turned over, distortion, distances, blocks.
 //!
-//! [`scaled_jacobians`] and [`Quality`] say how good cells are, [`flipped`] what a map turned over, [`distortion`] how
-//! far one mesh is from a similarity of another, [`hausdorff`] how far a mesh is from a shape, and [`base_complex`]
-//! finds the blocks of any hexahedral mesh.
+//! [`scaled_jacobians`], [`Quality`] and [`CellMeasures`] say how good cells are, [`flipped`] what a map turned over,
+//! [`distortion`] how far one mesh is from a similarity of another, [`hausdorff`] how far a mesh is from a shape, and
+//! [`base_complex`] finds the blocks of any hexahedral mesh.
 
 mod base_complex;
+mod cells;
 mod check;
 mod distortion;
+mod faces;
 mod flipped;
 pub(crate) mod hausdorff;
 mod quality;
+mod soundness;
 
 pub use base_complex::base_complex;
+pub use cells::{CellMeasures, MeasureSummary, Spread};
 pub(crate) use check::check_mesh;
 pub use distortion::{Distortion, distortion};
 pub use flipped::{Flipped, flipped};
 pub use hausdorff::hausdorff;
+pub(crate) use quality::edges;
 pub use quality::{
     BARS, Quality, Statistics, cell_qualities, hexahedron_volume, quadrilateral_scaled_jacobian, scaled_jacobian,
     scaled_jacobians, statistics, tetrahedron_scaled_jacobian, tetrahedron_volume,
 };
-pub(crate) use quality::{corner_jacobian, edges};
+pub(crate) use soundness::{AIM, GOOD, corner_soundness, mean_determinant, soundness};

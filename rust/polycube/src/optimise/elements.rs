@@ -1,7 +1,7 @@
 //! The corner tetrahedra whose shapes are optimised, each with the shape it should have.
 
 use crate::error::{Error, ErrorKind, Place, Result};
-use crate::measure::edges;
+use crate::measure::{AIM, corner_soundness, edges, mean_determinant};
 use crate::mesh::hexahedron::{CORNERS, EDGES, corner_tetrahedra};
 use crate::mesh::{Point, Stars};
 use nalgebra::{Matrix3, Vector3};
@@ -10,7 +10,8 @@ use rayon::prelude::*;
 /// How the quality of an element is measured; always in −1..1, positive where it is not inverted.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Measure {
-    /// Scaled Jacobian of the three edges: 1 where they are perpendicular, whatever their lengths.
+    /// Scaled Jacobian of the three edges, 1 where they are perpendicular; but less where one is more than five times
+    /// as long as another or their determinant is under a twentieth of the mean, so that cells do not collapse.
     ScaledJacobian,
     /// Mean ratio `3 det(J)^(2/3) / tr(Jᵀ J)` of the map from the reference, with the sign of `det J`: 1 for
     /// similarities.
@@ -60,10 +61,17 @@ pub struct Elements {
     pub(super) weights: Vec<f64>,
     pub(super) per_cell: usize,
     pub(super) measure: Measure,
+    /// The mean determinant of the edges; 0 as long as it is not known.
+    pub(super) mean: f64,
 }
 
 /// Elements that a thread takes at least.
 const LEAST_SHARE: usize = 4096;
+
+/// No side of a box shall be shorter than this part of the mean edge,
+const LEAST_SIDE: f64 = 0.3;
+/// nor any longer than so many times the shortest.
+const LONGEST_SIDE: f64 = 4.0;
 
 /// A rest shape with a lower mean ratio than this is no example to follow.
 const WORST_REST: f64 = 0.02;
@@ -98,17 +106,36 @@ impl Elements {
     /// Hexahedra that should be boxes with about the edge lengths they have in `points`; as [`cubes`](Self::cubes)
     /// otherwise.
     ///
-    /// The lengths are averaged over parallel edges, `smoothing` times over the neighbours as well (3 is a good
-    /// number), so layers that are thin on purpose stay thin, while single odd edges do not count. O(n log n) for
-    /// sorting the edges.
+    /// The lengths are averaged over parallel edges, `smoothing` times over the neighbours as well (3 is a good number), so
+    /// layers that are thin on purpose stay thin, while single odd edges do not count. O(n log n) for sorting the edges.
     ///
     /// # Errors
     /// [`ErrorKind::Mesh`] naming the cell that has a vertex outside `points`.
     pub fn boxes_like(hexes: &[[u32; 8]], points: &[Point], smoothing: usize) -> Result<Self> {
         check(hexes, points.len())?;
-        let sizes = box_sizes(hexes, points, smoothing);
+        Ok(Self::boxes(hexes, points, &box_sizes(hexes, points, smoothing)))
+    }
+
+    /// The same, but no box is thinner than 0.3 times the mean edge or a quarter of its own longest side: cells that have
+    /// collapsed are no example.
+    ///
+    /// # Errors
+    /// Those of [`boxes_like`](Self::boxes_like).
+    pub fn fair_boxes_like(hexes: &[[u32; 8]], points: &[Point], smoothing: usize) -> Result<Self> {
+        check(hexes, points.len())?;
+        let mut sizes = box_sizes(hexes, points, smoothing);
+        let floor = LEAST_SIDE * sizes.as_flattened().iter().sum::<f64>() / (3 * sizes.len()).max(1) as f64;
+        for size in &mut sizes {
+            let least = floor.max(size.iter().copied().fold(0.0, f64::max) / LONGEST_SIDE);
+            *size = size.map(|side| side.max(least));
+        }
+        Ok(Self::boxes(hexes, points, &sizes))
+    }
+
+    fn boxes(hexes: &[[u32; 8]], points: &[Point], sizes: &[[f64; 3]]) -> Self {
         let shapes = sizes.iter().flat_map(corner_shapes).collect();
-        Ok(Self::new(corners(hexes), shapes, vec![1.0; 8 * hexes.len()], 8, Measure::ScaledJacobian))
+        let own = Self::new(corners(hexes), shapes, vec![1.0; 8 * hexes.len()], 8, Measure::ScaledJacobian);
+        Self { mean: mean_determinant(points, hexes), ..own }
     }
 
     fn new(
@@ -119,7 +146,17 @@ impl Elements {
         measure: Measure,
     ) -> Self {
         let references = shapes.iter().map(Reference::new).collect();
-        Self { corners, references, weights, per_cell, measure }
+        Self { corners, references, weights, per_cell, measure, mean: 0.0 }
+    }
+
+    /// The mean determinant of the edges; 0 as long as it is not known.
+    pub(crate) fn mean_determinant(&self) -> f64 {
+        self.mean
+    }
+
+    /// The determinant of the edges below which an element is less sound, see [`corner_soundness`].
+    pub(super) fn small(&self) -> f64 {
+        AIM.determinant * self.mean
     }
 
     /// Number of corner tetrahedra.
@@ -172,6 +209,10 @@ impl Elements {
 
     /// Scales the references to the mean volume of the elements, which a fixed boundary keeps.
     pub(super) fn match_size(&mut self, points: &[Point]) {
+        if self.mean == 0.0 {
+            let all = self.each(|i| edges(points, self.corners[i]).determinant().abs());
+            self.mean = all.iter().sum::<f64>() / self.len().max(1) as f64;
+        }
         let dets = self.each(|i| self.weights[i] * self.det(i, points));
         let weight: f64 = self.weights.iter().sum();
         let (mean, absolute) = (dets.iter().sum::<f64>() / weight, dets.iter().map(|d| d.abs()).sum::<f64>() / weight);
@@ -184,7 +225,7 @@ impl Elements {
     pub(super) fn quality(&self, i: usize, points: &[Point]) -> f64 {
         let edges = edges(points, self.corners[i]);
         match self.measure {
-            Measure::ScaledJacobian => crate::measure::corner_jacobian(&edges),
+            Measure::ScaledJacobian => corner_soundness(&edges, self.mean, &AIM),
             Measure::MeanRatio => mean_ratio(&edges, &self.references[i]),
         }
     }

@@ -1,13 +1,14 @@
 //! The energy of elements and its derivative.
 //!
-//! All of it depends on the edges `E` of an element through `tr(Jᵀ J)`, `det J` and the lengths of the edges, where `J = E R` for
-//! the inverse `R` of the edges it should have. So the derivative is a sum of three fields: `E R Rᵀ`, the cofactors of `E`,
-//! and the edges.
+//! All of it depends on the edges `E` of an element through `tr(Jᵀ J)`, `det J` and the lengths of the edges, where `J
+//! = E R` for the inverse `R` of the edges it should have. So the derivative is a sum of three fields: `E R Rᵀ`, the
+//! cofactors of `E`, and the edges.
 //!
 //! Garanzha, Kaporin, Kudryavtseva, Protais, Ray, Sokolov: "Foldover-free maps in 50 lines of code", ACM TOG 2021.
 
 use super::elements::{Measure, Reference};
 use super::lanes::{Lanes, Vectors, combine, cross, dot, three};
+use crate::measure::AIM;
 use std::ops::Add;
 
 /// What is minimised.
@@ -16,11 +17,16 @@ pub(super) enum Law {
     /// `(1−θ) f + θ g` with `f = tr(Jᵀ J) / χ^(2/3)`, `g = (det² + 1) / χ` and `χ = (det + √(ε² + det²)) / 2`:
     /// finite for inverted elements.
     Regularised { theta: f64, epsilon: f64 },
-    /// The same with `χ = det`, infinite unless `det` is positive, and `average / quality` added, which weighs on all elements, and
-    /// `strength · (floor / quality)^(2^squarings)`, which weighs on those near the worst quality `floor`. All less its least
-    /// value, so that gains can be compared with what is left.
-    Barrier { theta: f64, average: f64, strength: f64, floor: f64, squarings: u32 },
+    /// The same with `χ = det`, infinite unless `det` is positive, and `average / quality` added, which weighs on all
+    /// elements, and `strength · (floor / quality)^(2^squarings)`, which weighs on those near the worst quality
+    /// `floor`. For scaled Jacobians the same power also weighs on determinants near or below `small` and on edges of
+    /// unlike lengths. All but these less its least value, so that gains can be compared with what is left.
+    Barrier { theta: f64, average: f64, strength: f64, floor: f64, squarings: u32, small: f64 },
 }
+
+/// One over twice the square of the ratio of edges that counts as bad as a scaled Jacobian of 1: what three edges'
+/// squares and the inverses of these come to where one is much longer or shorter than the others.
+const UNLIKE: f64 = 0.5 / (AIM.ratio * AIM.ratio);
 
 /// An energy and its derivatives by `tr(Jᵀ J)`, by `det J`, and by half the square of each edge's length.
 struct Parts {
@@ -45,7 +51,8 @@ impl Add for Parts {
 }
 
 impl Law {
-    /// The energies of elements with these `edges`, and their derivatives by the edges; nothing when one of them is infinite.
+    /// The energies of elements with these `edges`, and their derivatives by the edges; nothing when one of them is
+    /// infinite.
     #[inline(always)]
     pub(super) fn value(
         &self,
@@ -61,7 +68,7 @@ impl Law {
         let trace = dot(pulls[0], edges[0]) + dot(pulls[1], edges[1]) + dot(pulls[2], edges[2]);
         let parts = match *self {
             Self::Regularised { theta, epsilon } => regularised(trace, det, theta, epsilon),
-            Self::Barrier { theta, average, strength, floor, squarings } => {
+            Self::Barrier { theta, average, strength, floor, squarings, small } => {
                 if !det.above(f64::MIN_POSITIVE) {
                     return None;
                 }
@@ -69,7 +76,9 @@ impl Law {
                 let penalty = Penalty { average, strength, floor, squarings };
                 raised.distortion(det, theta)
                     + match measure {
-                        Measure::ScaledJacobian => raised.skewness(edges, reference.det, &penalty),
+                        Measure::ScaledJacobian => {
+                            raised.unsoundness(edges, reference.det * small, reference.det, &penalty)
+                        }
                         Measure::MeanRatio => raised.stretch(&penalty),
                     }
             }
@@ -132,17 +141,30 @@ impl Raised {
         }
     }
 
-    /// The penalty on one over the scaled Jacobian; `scale` is `det R`.
+    /// The penalties on one over the scaled Jacobian, on determinants below `small`, and on edges of unlike lengths;
+    /// `scale` is `det R`.
     #[inline(always)]
-    fn skewness(&self, edges: &[Vectors; 3], scale: Lanes, penalty: &Penalty) -> Parts {
+    fn unsoundness(&self, edges: &[Vectors; 3], small: Lanes, scale: Lanes, penalty: &Penalty) -> Parts {
         let squares = three(|k| dot(edges[k], edges[k]));
-        let product = squares[0] * squares[1] * squares[2];
+        let others = three(|k| squares[(k + 1) % 3] * squares[(k + 2) % 3]);
+        let product = squares[0] * others[0];
+        let inverse = product.inverse();
         let bad = product.sqrt() * self.inverse * scale;
-        let (energy, slope) = penalty.value(bad);
-        let weight = slope * bad;
-        let share = weight * product.inverse();
-        let by_squares = three(|k| squares[(k + 1) % 3] * squares[(k + 2) % 3] * share);
-        Parts { energy, by_trace: Lanes::all(0.0), by_det: weight * self.inverse * -1.0, by_squares }
+        let (skewed, slope) = penalty.value(bad);
+        let skewness = slope * bad;
+        let (tiny, slope) = penalty.worst(small * self.inverse);
+        let tininess = slope * small * self.inverse;
+        // Their sum times the sum of their inverses.
+        let (sum, sum_of_inverses) =
+            (squares[0] + squares[1] + squares[2], (others[0] + others[1] + others[2]) * inverse);
+        let (slender, slope) = penalty.worst_square(sum * sum_of_inverses * UNLIKE, 9.0 * UNLIKE);
+        let slope = slope * (2.0 * UNLIKE);
+        let by_squares = three(|k| {
+            let inverse = others[k] * inverse;
+            inverse * skewness + slope * (sum_of_inverses - sum * inverse * inverse)
+        });
+        let by_det = (skewness + tininess) * self.inverse * -1.0;
+        Parts { energy: skewed + tiny + slender, by_trace: Lanes::all(0.0), by_det, by_squares }
     }
 
     /// The penalty on one over the mean ratio.
@@ -176,6 +198,23 @@ impl Penalty {
         let energy = (bad - Lanes::all(1.0)) * self.average + (power - least) * self.strength;
         (energy, growth * (self.strength * self.floor) + Lanes::all(self.average))
     }
+
+    /// The penalty on the worst alone, and its derivative.
+    #[inline(always)]
+    fn worst(&self, bad: Lanes) -> (Lanes, Lanes) {
+        let (power, growth) = raise(bad * self.floor, self.squarings);
+        (power * self.strength, growth * (self.strength * self.floor))
+    }
+
+    /// The same of its square, less that at its `least` value.
+    #[inline(always)]
+    fn worst_square(&self, bad: Lanes, least: f64) -> (Lanes, Lanes) {
+        let square = self.floor * self.floor;
+        let squarings = self.squarings.saturating_sub(1);
+        let (power, growth) = raise(bad * square, squarings);
+        let (least, _) = raise(Lanes::all(least * square), squarings);
+        ((power - least) * self.strength, growth * (self.strength * square))
+    }
 }
 
 /// `x^(2^n)` and its derivative, by squaring: the same on every machine.
@@ -200,8 +239,8 @@ mod tests {
     const LAWS: [Law; 4] = [
         Law::Regularised { theta: 0.3, epsilon: 0.5 },
         Law::Regularised { theta: 0.0, epsilon: 1.0 },
-        Law::Barrier { theta: 0.1, average: 0.7, strength: 2.0, floor: 0.3, squarings: 3 },
-        Law::Barrier { theta: 0.5, average: 0.0, strength: 0.0, floor: 0.9, squarings: 0 },
+        Law::Barrier { theta: 0.1, average: 0.7, strength: 2.0, floor: 0.3, squarings: 3, small: 0.4 },
+        Law::Barrier { theta: 0.5, average: 0.0, strength: 0.0, floor: 0.9, squarings: 1, small: 0.1 },
     ];
 
     /// Energy and derivative of elements that are all alike, in the first lane.
@@ -238,7 +277,7 @@ mod tests {
 
     #[test]
     fn right_boxes_and_similar_maps_are_at_rest() {
-        let law = Law::Barrier { theta: 0.5, average: 1.0, strength: 1.0, floor: 1.0, squarings: 2 };
+        let law = Law::Barrier { theta: 0.5, average: 1.0, strength: 1.0, floor: 1.0, squarings: 2, small: 0.0 };
         for measure in [Measure::ScaledJacobian, Measure::MeanRatio] {
             let (energy, slope) = value(&law, measure, &Matrix3::identity(), &Matrix3::identity());
             assert!(energy.abs() < 1e-12 && slope.norm() < 1e-12);

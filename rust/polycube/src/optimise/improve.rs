@@ -46,7 +46,7 @@ pub(super) fn improve(
     let limits = Limits { iterations: settings.improve_iterations, tolerance: TOLERANCE };
     for round in 0..settings.improve_rounds {
         context.tick(round as f64 / settings.improve_rounds as f64)?;
-        let census = step(problem, &mut points, law(settings, round), limits, context)?;
+        let census = step(problem, &mut points, law(settings, round, problem.elements.small()), limits, context)?;
         if score(&census) > best {
             best = score(&census);
             improved.best.copy_from_slice(&points);
@@ -60,11 +60,11 @@ pub(super) fn improve(
 }
 
 /// The law of a round, for the worst quality 1: exponents double evenly over the rounds.
-fn law(settings: &Settings, round: usize) -> Law {
+fn law(settings: &Settings, round: usize, small: f64) -> Law {
     let span = settings.improve_rounds.saturating_sub(1).max(1);
     let squarings = 1 + ((SQUARINGS - 1) as usize * round).div_ceil(span) as u32;
     let Settings { theta, average, strength, .. } = *settings;
-    Law::Barrier { theta, average, strength, floor: 1.0, squarings }
+    Law::Barrier { theta, average, strength, floor: 1.0, squarings, small }
 }
 
 /// One round from `points`.

@@ -100,7 +100,8 @@ impl Default for Settings {
     }
 }
 
-/// What an optimisation did. Qualities are in [`Measure`] of the elements: for hexahedra scaled Jacobians.
+/// What an optimisation did. Qualities are in [`Measure`] of the elements: for hexahedra how sound
+/// they are: scaled Jacobians, but no more than lengths of edges and determinants allow.
 #[derive(Clone, Debug, PartialEq, serde::Serialize)]
 pub struct Report {
     /// Cells with an inverted or flat element in the input.

@@ -37,36 +37,44 @@ pub(super) fn polish(
         return Ok(());
     }
     let stars = Stars::new(points.len(), elements.corners.iter().copied());
+    let mut stuck: Vec<bool> = (0..points.len()).map(|v| !constraints.moves(v)).collect();
     for round in 0..LONGER * rounds {
         context.tick(round as f64 / (LONGER * rounds) as f64)?;
-        let worst = worst_elements(elements, points);
-        if round >= rounds && worst.first().is_none_or(|w| w.0 >= wanted) {
+        let (least, worst) = worst_elements(elements, points, &stuck);
+        if worst.is_empty() || round >= rounds && least >= wanted {
             break;
         }
-        let mut moved = false;
-        for v in vertices(elements, &worst) {
+        for v in vertices(elements, &worst).into_iter().filter(|v| constraints.moves(*v)) {
             if context.is_cancelled() {
                 break;
             }
-            moved |= constraints.moves(v) && better(elements, constraints, stars.of(v), points, v);
-        }
-        if !moved {
-            break;
+            let star = stars.of(v);
+            if !stuck[v] && better(elements, constraints, star, points, v) {
+                // Those around may have room now.
+                star.iter()
+                    .flat_map(|e| elements.corners[*e as usize])
+                    .for_each(|w| stuck[w as usize] = !constraints.moves(w as usize));
+            } else {
+                stuck[v] = true;
+            }
         }
     }
     context.tick(1.0)
 }
 
-/// The worst elements with their qualities, from the worst.
-fn worst_elements(elements: &Elements, points: &[Point]) -> Vec<(f64, u32)> {
-    let mut order = elements.each(|e| (elements.quality(e, points), e as u32));
+/// The worst quality, and of the elements with a vertex that is not `stuck` the worst with theirs, from the worst.
+fn worst_elements(elements: &Elements, points: &[Point], stuck: &[bool]) -> (f64, Vec<(f64, u32)>) {
+    let all = elements.each(|e| (elements.quality(e, points), e as u32));
+    let least = all.iter().map(|(quality, _)| *quality).fold(1.0, f64::min);
+    let is_stuck = |e: u32| elements.corners[e as usize].iter().all(|v| stuck[*v as usize]);
+    let mut order: Vec<_> = all.into_iter().filter(|(_, e)| !is_stuck(*e)).collect();
     let by_quality = |a: &(f64, u32), b: &(f64, u32)| a.0.total_cmp(&b.0).then(a.1.cmp(&b.1));
     if order.len() > WORST {
         order.select_nth_unstable_by(WORST, by_quality);
         order.truncate(WORST);
     }
     order.sort_by(by_quality);
-    order
+    (least, order)
 }
 
 /// The vertices of some elements, each once.

@@ -20,6 +20,8 @@ pub(crate) struct Meshed {
     pub(crate) hexes: Option<Hexes>,
     /// That of the hexahedra; of no cell without them.
     pub(crate) quality: Quality,
+    /// How sound the worst hexahedron is; 1 without them.
+    pub(crate) soundness: f64,
     /// How far the shape is from the surface; 0 if it is within the bound, as far as could be seen, or, without
     /// hexahedra, within the length of a quadrilateral's side.
     pub(crate) far: f64,
@@ -56,7 +58,7 @@ pub(crate) fn mesh_surface(
     let far = if distance > quads.mean_side() { distance } else { 0.0 };
     stages.mesh += start.elapsed().as_secs_f64();
     let quality = Quality::new(Vec::new());
-    Ok(Meshed { layout, quads, hexes: None, quality, far, released: 0, spaced: false, folded })
+    Ok(Meshed { layout, quads, hexes: None, quality, soundness: 1.0, far, released: 0, spaced: false, folded })
 }
 
 /// The hexahedra of a solid with the quadrilaterals and patches of their surface.
@@ -84,7 +86,7 @@ pub(crate) fn mesh_volume(
     context.tick(0.3)?;
     let layout = remesher.layout(&hexes.mesh.points, options.padding)?;
     context.tick(0.7)?;
-    let quality = hexes.quality();
+    let (quality, soundness) = (hexes.quality(), hexes.soundness().worst);
     context.tick(1.0)?;
-    Ok(Meshed { layout, quads, hexes: Some(hexes), quality, far, released, spaced: false, folded: 0 })
+    Ok(Meshed { layout, quads, hexes: Some(hexes), quality, soundness, far, released, spaced: false, folded: 0 })
 }

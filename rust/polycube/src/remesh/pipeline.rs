@@ -3,11 +3,12 @@
 use crate::context::Context;
 use crate::error::{Error, ErrorKind, Result};
 use crate::layout::Objective;
+use crate::measure::GOOD;
 use crate::remesh::meshed::{Meshed, mesh_surface, mesh_volume};
 use crate::remesh::mesher::{Hexes, Layout, Quads};
 use crate::remesh::options::RemeshOptions;
 use crate::remesh::report::{RemeshReport, measure};
-use crate::remesh::select::{Candidate, Candidates, GOOD, Verdict, WORTH, Wrong};
+use crate::remesh::select::{Candidate, Candidates, Verdict, WORTH, Wrong};
 use crate::remesh::stages::Stages;
 use crate::simplify::{self, Input, Simplified, simplify, untangle_morphed};
 use std::time::Instant;
@@ -100,7 +101,7 @@ impl Made {
         match &self.meshed {
             meshed if meshed.bad() > 0 => Some(Wrong::Inverted),
             Meshed { far, .. } if *far > 0.0 => Some(Wrong::Far),
-            Meshed { quality, .. } if quality.worst < GOOD - WORTH => Some(Wrong::Poor),
+            Meshed { soundness, .. } if *soundness < GOOD - WORTH => Some(Wrong::Poor),
             _ => None,
         }
     }
@@ -109,9 +110,9 @@ impl Made {
         self.simplified.report.after.map_or(0, |counts| counts.blocks_padded)
     }
 
-    /// Worst and average scaled Jacobian in sum, the worst as far as it is not good.
+    /// Least soundness and average scaled Jacobian in sum, the least as far as it is not good.
     fn value(&self) -> f64 {
-        self.meshed.quality.worst.min(GOOD) + self.meshed.quality.mean
+        self.meshed.soundness.min(GOOD) + self.meshed.quality.mean
     }
 
     /// Whether it is rather to be had than `other`: one with fewer inverted hexahedra, then one nearer to the shape,

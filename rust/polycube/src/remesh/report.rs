@@ -3,7 +3,7 @@
 use crate::context::Context;
 use crate::error::Result;
 use crate::measure::hausdorff::{diagonal, hausdorff};
-use crate::measure::{BARS, Quality, base_complex, cell_qualities, statistics};
+use crate::measure::{BARS, MeasureSummary, Quality, base_complex, cell_qualities, statistics};
 use crate::mesh::{CellKind, Mesh};
 use crate::remesh::meshed::Meshed;
 use crate::remesh::mesher::Hexes;
@@ -52,6 +52,10 @@ pub struct RemeshReport {
     pub avg_sj: Option<f64>,
     /// Hexahedra by scaled Jacobian, see [`Statistics`](crate::measure::Statistics).
     pub histogram: [u32; BARS],
+    /// What solvers look at: `edge_ratio`, `determinant`, `non_orthogonality` and `skewness`; nothing without
+    /// hexahedra.
+    #[serde(flatten)]
+    pub measures: Option<MeasureSummary>,
     /// Volume of the hexahedra, in cubed units of the shape.
     pub volume: f64,
     /// Hausdorff distance between the quadrilaterals and the shape, in units of the shape.
@@ -112,6 +116,7 @@ pub(crate) fn measure(
         min_sj: some.then_some(found.min),
         avg_sj: some.then_some(found.average),
         histogram: found.histogram,
+        measures: meshed.hexes.as_ref().map(|h| h.measures().summary()),
         volume: if some { found.volume } else { 0.0 },
         hausdorff: distance,
         hausdorff_percent: 100.0 * distance / diagonal,

@@ -6,12 +6,16 @@ use polycube::compare::{Comparison, Meshing};
 use polycube::simplify::Note;
 
 /// The columns; the first two are texts.
-const HEADER: [&str; 14] = [
+const HEADER: [&str; 18] = [
     "model",
     "simplification",
     "hexes",
     "min SJ",
     "avg SJ",
+    "edges",
+    "determinant",
+    "angle",
+    "skewness",
     "inverted",
     "singular",
     "patches",
@@ -43,8 +47,9 @@ pub fn text(rows: &[Row], style: Style, (surface_only, why): (bool, bool)) -> St
         text += &format!("{bullet}{mean:.0} % fewer {what}{over}\n");
     }
     text += &format!(
-        "{bullet}SJ: scaled Jacobian; singular: irregular vertices of the surface; Hausdorff: in percent of the \
-         shape's diagonal; simplify, total: seconds\n"
+        "{bullet}SJ: scaled Jacobian; edges: largest ratio of a cell's edges; determinant: least one over the mean; \
+         angle, skewness: largest non-orthogonality in degrees and skewness of faces; singular: irregular vertices of \
+         the surface; Hausdorff: in percent of the shape's diagonal; simplify, total: seconds\n"
     );
     for line in rows.iter().flat_map(|row| remarks(row, why)) {
         text += &format!("{bullet}{line}\n");
@@ -52,12 +57,12 @@ pub fn text(rows: &[Row], style: Style, (surface_only, why): (bool, bool)) -> St
     text
 }
 
-fn lines(model: &str, found: &Comparison, surface_only: bool) -> [[String; 14]; 2] {
+fn lines(model: &str, found: &Comparison, surface_only: bool) -> [[String; 18]; 2] {
     let gain = format!("{:.0} %", gain(found, surface_only));
     [line(model, "without", &found.without, String::new()), line("", "with", &found.with, gain)]
 }
 
-fn line(model: &str, simplification: &str, mesh: &Meshing, gain: String) -> [String; 14] {
+fn line(model: &str, simplification: &str, mesh: &Meshing, gain: String) -> [String; 18] {
     let quality = |x: Option<f64>| x.map_or("-".to_owned(), |x| format!("{x:.3}"));
     [
         model.to_owned(),
@@ -65,6 +70,10 @@ fn line(model: &str, simplification: &str, mesh: &Meshing, gain: String) -> [Str
         mesh.hexes.to_string(),
         quality(mesh.min_sj),
         quality(mesh.avg_sj),
+        mesh.max_edge_ratio.map_or("-".to_owned(), |x| format!("{x:.1}")),
+        mesh.min_determinant.map_or("-".to_owned(), |x| format!("{x:.4}")),
+        mesh.max_non_orthogonality.map_or("-".to_owned(), |x| format!("{x:.0}")),
+        mesh.max_skewness.map_or("-".to_owned(), |x| format!("{x:.2}")),
         mesh.inverted.to_string(),
         mesh.singular_vertices.to_string(),
         mesh.counts.surface_patches.to_string(),
@@ -77,7 +86,7 @@ fn line(model: &str, simplification: &str, mesh: &Meshing, gain: String) -> [Str
     ]
 }
 
-fn failed(model: &str) -> [String; 14] {
+fn failed(model: &str) -> [String; 18] {
     let mut cells = std::array::from_fn(|_| "-".to_owned());
     (cells[0], cells[1]) = (model.to_owned(), "failed".to_owned());
     cells

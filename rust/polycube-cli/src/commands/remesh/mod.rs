@@ -32,11 +32,12 @@ In the output folder:
   layout.obj      the same on the surface: one quadrilateral per patch
   quads.obj       the quadrilateral mesh, its vertices on the shape
   hexes.mesh      the hexahedral mesh, and as
-  hexes.vtu       with the cell arrays scaled_jacobian, block_id and label
+  hexes.vtu       with the cell arrays scaled_jacobian, edge_ratio, determinant, non_orthogonality,
+                  skewness, block_id and label
   polycube.EXT    the polycube on the lattice, with the connectivity of the input
   polycube.labels the label of each of its boundary faces, one a line, for --labels
   report.json     that of `simplify`, and hexes, inverted, min_sj, avg_sj, hausdorff, quads,
-                  histogram, times
+                  histogram, least, largest and mean of the other arrays, times
 They appear together when all is done, or not at all. With --surface-only there are no hexahedra
 and no layout.vtk. --format EXT writes hexahedra (or, if it holds surfaces only, quadrilaterals) in
 that format, too; quads.ply has a colour for each patch.

@@ -4,7 +4,7 @@ use super::distant_points::{DistantPoint, distant_points};
 use super::fitting::{Fitting, POOR};
 use crate::context::Context;
 use crate::error::Result;
-use crate::measure::scaled_jacobian;
+use crate::measure::soundness;
 use crate::mesh::{Face, Point, Stars};
 use crate::optimise::{Freedom, Settings};
 
@@ -17,7 +17,7 @@ const LEFT: f64 = 0.9;
 /// They are where the shape is farther from the mesh than this part of the bound: a little less, as optimising moves
 /// the others.
 const NEARER: f64 = 0.9;
-/// What may be left of the worst scaled Jacobian of all, where it is not [`POOR`],
+/// What may be left of the least soundness of all, where it is not [`POOR`],
 const KEPT: f64 = 0.8;
 /// and of that around a vertex when it is moved with care, before the others make way.
 const KEPT_AROUND: f64 = 0.3;
@@ -66,7 +66,7 @@ impl Fitting<'_> {
         settings: &Settings,
         context: &Context,
     ) -> Result<f64> {
-        let mut worst = self.hexes.quality().worst;
+        let mut worst = self.hexes.soundness().worst;
         if worst <= 0.0 {
             return Ok(f64::INFINITY);
         }
@@ -90,7 +90,7 @@ impl Fitting<'_> {
             self.resize()?;
             self.run(&held, settings, &context.stage("fit", from, to))?;
             let left = self.distant_points(&faces, samples, bound, context)?;
-            let reached = self.hexes.quality().worst;
+            let reached = self.hexes.soundness().worst;
             let enough = bound + LEFT * (farthest - bound);
             if left.first().is_none_or(|g| g.distance < enough) && reached > POOR.min(KEPT * worst) {
                 worst = worst.max(reached);
@@ -175,7 +175,7 @@ impl Fitting<'_> {
     }
 
     fn worst_of(&self, cells: &[u32]) -> f64 {
-        let all = self.hexes.cells();
-        cells.iter().map(|&c| scaled_jacobian(&self.hexes.mesh.points, &all[c as usize])).fold(1.0, f64::min)
+        let (all, mean) = (self.hexes.cells(), self.elements.mean_determinant());
+        cells.iter().map(|&c| soundness(&self.hexes.mesh.points, &all[c as usize], mean)).fold(1.0, f64::min)
     }
 }

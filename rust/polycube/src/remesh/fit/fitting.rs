@@ -3,7 +3,7 @@
 use super::sliding::Sliding;
 use crate::context::Context;
 use crate::error::Result;
-use crate::measure::scaled_jacobian;
+use crate::measure::soundness;
 use crate::mesh::Point;
 use crate::optimise::{Elements, Freedom, Guide, Settings, optimise};
 use crate::remesh::lattice::Carrier;
@@ -14,7 +14,7 @@ use rayon::prelude::*;
 pub(crate) const SMOOTHING: usize = 3;
 /// A trial with more than this part of its hexahedra inverted leads to nothing.
 const HOPELESS: f64 = 0.01;
-/// Hexahedra of a lower scaled Jacobian may have vertices released where the shape is smooth.
+/// Hexahedra less sound than this may have vertices released where the shape is smooth.
 pub(crate) const POOR: f64 = 0.6;
 
 /// A mesh on the way to be improved.
@@ -50,11 +50,11 @@ impl Fitting<'_> {
         Ok(optimise(points, &self.elements, freedom, &self.guides, settings, context)?.inverted_after)
     }
 
-    /// Lets vertices of hexahedra whose scaled Jacobian is `bar` or less slide on all of the surface, where `may`
-    /// agrees.
+    /// Lets vertices of hexahedra whose soundness is `bar` or less slide on all of the surface, where `may` agrees.
     pub(crate) fn release(&mut self, bar: f64, may: impl Fn(&Sliding, Carrier, &Point) -> bool) {
         let Hexes { mesh, carriers, .. } = &*self.hexes;
-        let bad = self.hexes.cells().iter().filter(|c| scaled_jacobian(&mesh.points, c) <= bar);
+        let mean = self.elements.mean_determinant();
+        let bad = self.hexes.cells().iter().filter(|c| soundness(&mesh.points, c, mean) <= bar);
         for v in bad.flatten().map(|&v| v as usize) {
             let bound = matches!(carriers[v], Carrier::Corner(_) | Carrier::Edge(_));
             let free = self.freedom[v] == self.sliding.released();
@@ -72,7 +72,11 @@ impl Fitting<'_> {
 
     /// Asks for boxes of the sizes that the hexahedra have by now.
     pub(crate) fn resize(&mut self) -> Result<()> {
-        self.elements = Elements::boxes_like(self.hexes.cells(), &self.hexes.mesh.points, SMOOTHING)?;
+        let (cells, points) = (self.hexes.cells(), &self.hexes.mesh.points);
+        // What is tangled is best untangled towards what it is; only then it makes sense to ask for fair sizes.
+        let tangled = self.hexes.quality().inverted > 0;
+        let like = if tangled { Elements::boxes_like } else { Elements::fair_boxes_like };
+        self.elements = like(cells, points, SMOOTHING)?;
         Ok(())
     }
 }

@@ -56,11 +56,20 @@ pub(crate) fn improve(
     context: &Context,
 ) -> Result<Improved> {
     let sliding = Sliding::new(polycube, shape, &context.stage("untangle", 0.0, 0.0))?;
-    let elements = Elements::boxes_like(hexes.cells(), &hexes.mesh.points, SMOOTHING)?;
+    let elements = Elements::fair_boxes_like(hexes.cells(), &hexes.mesh.points, SMOOTHING)?;
+    let start = hexes.mesh.points.clone();
     context.stage("untangle", 0.0, 0.0).tick(0.0)?;
     let freedom = sliding.freedoms(&hexes.carriers, Hold::Corners);
     let mut fitting = Fitting { elements, guides: sliding.guides(), sliding: &sliding, hexes, freedom, released: 0 };
-    fitting.untangle(settings, aim != Aim::Trial, &context.stage("untangle", 0.0, 0.4))?;
+    fitting.untangle(settings, aim != Aim::Trial, &context.stage("untangle", 0.0, 0.2))?;
+    if aim != Aim::Trial && fitting.hexes.quality().inverted > 0 {
+        // Fair sizes may not be to be had: then those there are.
+        fitting.elements = Elements::boxes_like(fitting.hexes.cells(), &start, SMOOTHING)?;
+        fitting.freedom = sliding.freedoms(&fitting.hexes.carriers, Hold::Corners);
+        fitting.released = 0;
+        fitting.hexes.mesh.points = start;
+        fitting.untangle(settings, true, &context.stage("untangle", 0.2, 0.4))?;
+    }
     if aim == Aim::Trial && fitting.is_hopeless() {
         return Ok(Improved { released: fitting.released, far: 0.0 });
     }

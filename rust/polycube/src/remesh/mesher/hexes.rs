@@ -4,7 +4,7 @@ use super::embedding::Embedding;
 use super::remesher::Remesher;
 use crate::context::Context;
 use crate::error::{Error, ErrorKind, Result};
-use crate::measure::{Quality, scaled_jacobian};
+use crate::measure::{CellMeasures, Quality, mean_determinant, scaled_jacobian, soundness};
 use crate::mesh::{CellField, Cells, Mesh, Point};
 use crate::remesh::lattice::{Carrier, Grid, Padding, too_fine};
 use crate::remesh::map::{fill_inside, interpolate};
@@ -45,15 +45,28 @@ impl Hexes {
         Quality::new(self.cells().iter().map(|c| scaled_jacobian(&self.mesh.points, c)).collect())
     }
 
-    /// The fields `block_id`, `label` and `scaled_jacobian` for mesh files.
+    /// What solvers look at beside that. Linear time.
+    pub fn measures(&self) -> CellMeasures {
+        CellMeasures::new(&self.mesh).unwrap_or_default()
+    }
+
+    /// How [sound](soundness) the hexahedra are as they are now. Linear time.
+    pub(crate) fn soundness(&self) -> Quality {
+        let mean = mean_determinant(&self.mesh.points, self.cells());
+        Quality::new(self.cells().iter().map(|c| soundness(&self.mesh.points, c, mean)).collect())
+    }
+
+    /// The fields `block_id`, `label`, `scaled_jacobian` and those of [`CellMeasures`] for mesh files.
     pub fn fields(&self) -> Vec<CellField> {
         let blocks = self.block_id.iter().map(|&b| b as i32).collect();
         let labels = self.label.iter().map(|&l| i32::from(l)).collect();
-        vec![
+        let mut fields = vec![
             CellField::integer("block_id", blocks),
             CellField::integer("label", labels),
             CellField::real("scaled_jacobian", self.quality().of_cell),
-        ]
+        ];
+        fields.extend(self.measures().fields());
+        fields
     }
 }
 

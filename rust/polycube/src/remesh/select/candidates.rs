@@ -6,12 +6,11 @@ use super::candidate::Candidate;
 use crate::context::Context;
 use crate::error::Result;
 use crate::layout::Counts;
+use crate::measure::GOOD;
 use crate::mesh::CellKind;
 use crate::remesh::options::RemeshOptions;
 use crate::simplify::{Input, Note, Simplified};
 
-/// A mesh whose worst scaled Jacobian is this is good: the least that Verdict's manual calls acceptable for hexahedra.
-pub(crate) const GOOD: f64 = 0.5;
 /// A mesh with more blocks must be better by this, worst and average in sum, to be taken instead of another poor one.
 pub(crate) const WORTH: f64 = 0.05;
 /// Corners move at most this part as far in the next point of the front that is tried.

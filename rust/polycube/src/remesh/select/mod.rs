@@ -8,6 +8,6 @@ mod multilevel;
 mod spacing;
 
 pub(crate) use candidate::Candidate;
-pub(crate) use candidates::{Candidates, GOOD, Verdict, WORTH, Wrong};
+pub(crate) use candidates::{Candidates, Verdict, WORTH, Wrong};
 pub(crate) use coarse_mesh::CoarseMesh;
 pub(crate) use multilevel::finish;
