@@ -1,12 +1,16 @@
 """Reads the meshes of `polycube remesh` with other programs and counts their blocks and patches independently.
 
 For each pair: meshio, gmsh and VTK (through PyVista) read every file with the counts of the report, every volume is
-positive and their sum is the reported one, the scaled Jacobians written are those computed here, and the base complex
-and the patches, traced here from the definition, are as many as reported.
+positive and their sum is the reported one, the scaled Jacobians and the other measures written are those computed here,
+OpenFOAM's checkMesh finds no more than one thing wrong and measures the same where it is installed, and the base
+complex and the patches, traced here from the definition, are as many as reported.
 """
 
 import json
+import os
 import pathlib
+import re
+import shutil
 import subprocess
 import sys
 import tempfile
@@ -16,11 +20,15 @@ import meshio
 import numpy
 import plyfile
 import pyvista
+from solver_measures import all_measures, write_case
 
 ROOT = pathlib.Path(__file__).resolve().parent.parent
 POLYCUBE = ROOT / "target/release/polycube"
 COLOURS = ("red", "green", "blue")
-ARRAYS = ("block_id", "label", "scaled_jacobian")
+MEASURES = ("edge_ratio", "determinant", "non_orthogonality", "skewness")
+ARRAYS = ("block_id", "label", "scaled_jacobian", *MEASURES)
+# Debian's OpenFOAM finds its own files by this alone.
+FOAM = {**os.environ, "WM_PROJECT_DIR": "/usr/share/openfoam", "FOAM_SIGFPE": "false"}
 # Of each corner of a hexahedron in VTK's order: the ends of its edges, right-handed seen from inside.
 CORNERS = ((1, 3, 4), (2, 0, 5), (3, 1, 6), (0, 2, 7), (7, 5, 0), (4, 6, 1), (5, 7, 2), (6, 4, 3))
 FACES = ((0, 3, 2, 1), (4, 5, 6, 7), (0, 1, 5, 4), (1, 2, 6, 5), (2, 3, 7, 6), (3, 0, 4, 7))
@@ -168,6 +176,38 @@ def with_gmsh(file, kind, count):
         check(worst > 0, f"gmsh: volume {worst} in {file}")
 
 
+def same_measures(name, mesh, cells, report):
+    """What is written of each cell and in total is what is computed here."""
+    for measure, found in all_measures(mesh.points, cells).items():
+        written, total = mesh.cell_data[measure], report[measure]
+        check(numpy.abs(found - written).max() < 1e-6 * max(1, found.max()), f"{name}: {measure} of cells")
+        for key, value in (("min", found.min()), ("max", found.max()), ("mean", found.mean())):
+            check(abs(total[key] - value) < 1e-6 * max(1, value), f"{name}: {key} of {measure}: {total[key]}, not {value}")
+        edges = total["from"] + total["bar"] * numpy.arange(1, len(total["histogram"]))
+        bars = numpy.bincount(numpy.searchsorted(edges, written, side="right"), minlength=len(total["histogram"]))
+        # A value on the edge between two bars may be rounded to either.
+        check(numpy.abs(bars - total["histogram"]).sum() <= 0.001 * len(cells), f"{name}: bars of {measure}")
+    check(report["edge_ratio"]["max"] <= 20, f"{name}: a cell's edges differ by {report['edge_ratio']['max']}")
+    check(report["determinant"]["min"] >= 0.01, f"{name}: a determinant of {report['determinant']['min']}")
+
+
+def with_check_mesh(name, points, cells, report, case):
+    """OpenFOAM's own opinion, where it is installed."""
+    if not shutil.which("checkMesh"):
+        print("  checkMesh is left out: there is no OpenFOAM.")
+        return
+    write_case(case, points, cells)
+    command = ["checkMesh", "-allGeometry", "-allTopology", "-case", case]
+    said = subprocess.run(command, capture_output=True, text=True, env=FOAM, timeout=600).stdout
+    # Of all its checks one may fail: a face in a coarse corner that cuts into tetrahedra badly.
+    failed = re.search(r"Failed (\d+) mesh checks", said)
+    fine = "Mesh OK." in said or failed and failed[1] == "1" and "Error in face tets" in said
+    check(fine, f"{name}: checkMesh says\n{said}")
+    for measure, pattern in (("non_orthogonality", r"non-orthogonality Max: (\S+)"), ("skewness", r"Max skewness = (\S+)")):
+        found = float(re.search(pattern, said)[1])
+        check(abs(report[measure]["max"] / found - 1) < 1e-4, f"{name}: {measure} {report[measure]['max']}, checkMesh says {found}")
+
+
 def volume_pair(name, shape, cube, hexes, folder):
     polycube("remesh", shape, "--polycube", cube, "-o", folder, "--hexes", hexes, "--format", "vtk", "-q", "--max-hausdorff", 5)
     report = json.loads((folder / "report.json").read_text())
@@ -180,9 +220,11 @@ def volume_pair(name, shape, cube, hexes, folder):
         check(numpy.abs(computed - mesh.cell_data["scaled_jacobian"]).max() < 1e-9, f"{name}: scaled Jacobians in {file}")
         check(abs(computed.min() - report["min_sj"]) < 1e-9, f"{name}: least scaled Jacobian")
         check(abs(computed.mean() - report["avg_sj"]) < 1e-9, f"{name}: mean scaled Jacobian")
+        same_measures(name, mesh, cells, report)
         check(len(set(mesh.cell_data["block_id"])) == blocks, f"{name}: blocks in {file}")
         check(set(mesh.cell_data["label"]) <= set(range(-1, 6)), f"{name}: labels in {file}")
         with_meshio(folder / file, "hexahedron", count, ARRAYS)
+    with_check_mesh(name, mesh.points, cells, report, folder / "case")
     with_vtk(folder / "layout.vtk", blocks, None, ("block_id",))
     found = count_blocks(with_meshio(folder / "hexes.mesh", "hexahedron", count).cells[0].data.tolist())
     check(found == blocks, f"{name}: {found} blocks counted, {blocks} reported")
