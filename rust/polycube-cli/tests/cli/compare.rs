@@ -98,7 +98,7 @@ fn tables_for_the_terminal_and_for_documents() {
     let table: Vec<&str> = text.lines().take_while(|l| !l.is_empty()).collect();
     assert_eq!(table.len(), 4, "{text}");
     let columns = |l: &&str| l.matches('|').count();
-    assert!(table.iter().all(|l| columns(l) == 15 && l.starts_with('|') && l.ends_with('|')), "{text}");
+    assert!(table.iter().all(|l| columns(l) == 19 && l.starts_with('|') && l.ends_with('|')), "{text}");
     assert!(table[1].chars().all(|c| "|-: ".contains(c)), "{text}");
 }
 
