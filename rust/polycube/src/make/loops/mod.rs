@@ -1,0 +1,172 @@
+//! Loops: closed curves of three kinds on a surface, whose dual is a polycube.
+//!
+//! A loop is a closed curve on which one of three functions on the surface is constant; its kind is the axis of that function.
+//! Loops of one kind never meet, loops of two kinds meet in **crossings**, and all loops cut the surface into **regions**. A
+//! region stands for a vertex of a polycube with quadrilateral faces, a crossing for one of its faces, and the part of a loop
+//! between two crossings for one of its edges. The **zones** of an axis are what the loops of its kind leave of the surface:
+//! vertices in one zone have one coordinate, and a loop says that one zone lies below another.
+//!
+//! A set of loops is **valid** if every region is a disc with three to six sides that look in different directions, and if the
+//! zones of every axis have an order. A dense set is made valid first ([`start`]); then loops are taken away as long as that
+//! pays, and only in ways that leave the set valid ([`coarsen`]). No polycube is ever repaired.
+//!
+//! Which sets of loops are polycubes: Snoep, Speckmann and Verbeek, *Polycubes via Dual Loops*, 2024 (arXiv 2410.16865). The
+//! search, from many level sets down to few loops, is this project's own.
+
+pub(crate) mod arrangement;
+mod coarsen;
+pub(crate) mod cut_mesh;
+mod energy;
+mod field;
+mod mend;
+mod moves;
+mod order;
+mod regions;
+mod repair;
+mod sparse;
+mod start;
+mod trial;
+
+#[cfg(test)]
+mod check;
+#[cfg(test)]
+mod tests;
+
+use crate::context::Context;
+use crate::error::{Error, ErrorKind, Place, Result};
+use crate::mesh::Point;
+use arrangement::Arrangement;
+use cut_mesh::CutMesh;
+use energy::Energies;
+use field::Field;
+use moves::Moves;
+use rayon::prelude::*;
+use start::{Attempt, Start};
+
+/// No element.
+pub(crate) const NONE: u32 = u32::MAX;
+
+/// What the user wants of a polycube.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct LoopOptions {
+    /// How much of the shape the polycube follows, in `0..=1`.
+    pub(crate) detail: f64,
+    /// Stops at this many corners instead, where so few can be reached.
+    pub(crate) corners: Option<usize>,
+}
+
+impl Default for LoopOptions {
+    fn default() -> Self {
+        Self { detail: 0.5, corners: None }
+    }
+}
+
+impl LoopOptions {
+    /// The share of the surface that may look in another direction for a corner less.
+    fn worth_of_corner(&self) -> f64 {
+        if self.corners.is_some() { f64::INFINITY } else { 0.02 * libm::pow(625.0, -self.detail) }
+    }
+}
+
+/// A valid set of loops.
+#[derive(Clone, Debug)]
+pub(crate) struct LoopSet {
+    /// The surface, cut along all loops there ever were.
+    pub(crate) mesh: CutMesh,
+    /// The loops that are left; index `l` is cut `l` of the mesh.
+    pub(crate) arrangement: Arrangement,
+    /// The zone that the face of each crossing lies in.
+    pub(crate) zone_of_crossing: Vec<u32>,
+    /// The corners of the polycube.
+    pub(crate) corners: usize,
+    /// Mean of one minus the cosine between the normal of the surface and the direction of its face.
+    pub(crate) misfit: f64,
+}
+
+/// How dense starts are made, best first: the first that are valid are coarsened, and the best outcome is taken.
+const ATTEMPTS: [Attempt; 9] = [
+    Attempt { levels: 24, reach: 2.0, smooth: 0.0 },
+    Attempt { levels: 32, reach: 2.0, smooth: 0.1 },
+    Attempt { levels: 40, reach: 2.0, smooth: 0.0 },
+    Attempt { levels: 24, reach: 0.5, smooth: 0.2 },
+    Attempt { levels: 32, reach: 0.5, smooth: 0.4 },
+    Attempt { levels: 16, reach: 0.5, smooth: 0.2 },
+    Attempt { levels: 24, reach: 0.05, smooth: 0.4 },
+    Attempt { levels: 48, reach: 0.5, smooth: 0.0 },
+    Attempt { levels: 16, reach: 0.5, smooth: 0.8 },
+];
+/// Attempts that are compared.
+const COMPARED: usize = 3;
+
+/// A valid set of few loops on a closed, oriented, manifold surface.
+///
+/// # Errors
+/// [`ErrorKind::Polycube`] with the face where no valid start was found, [`ErrorKind::Cancelled`].
+pub(crate) fn loops(
+    points: &[Point],
+    triangles: &[[u32; 3]],
+    options: &LoopOptions,
+    context: &Context,
+) -> Result<LoopSet> {
+    let field = Field::new(points, triangles);
+    let (first, others) = ATTEMPTS.split_at(COMPARED);
+    let tried = first
+        .par_iter()
+        .map(|&attempt| try_one(points, triangles, &field, attempt, options, context))
+        .collect::<Result<Vec<_>>>()?;
+    let mut fault = NONE;
+    let mut best: Option<(f64, LoopSet)> = None;
+    for one in tried {
+        match one {
+            Ok(found) if best.as_ref().is_none_or(|b| found.0 < b.0) => best = Some(found),
+            Ok(_) => {}
+            Err(face) => fault = face,
+        }
+    }
+    for &attempt in others {
+        if best.is_some() {
+            break;
+        }
+        match try_one(points, triangles, &field, attempt, options, context)? {
+            Ok(found) => best = Some(found),
+            Err(face) => fault = face,
+        }
+    }
+    best.map(|b| b.1).ok_or_else(|| no_start(fault))
+}
+
+fn no_start(face: u32) -> Error {
+    Error::new(ErrorKind::Polycube, "no set of loops around here is that of a polycube")
+        .at(Place::Face(face))
+        .remedy("refine or smooth the shape around this face, or turn the shape")
+}
+
+/// What a set of loops costs and the set, or the face where the attempt failed.
+type Tried = std::result::Result<(f64, LoopSet), u32>;
+
+fn try_one(
+    points: &[Point],
+    triangles: &[[u32; 3]],
+    field: &Field,
+    attempt: Attempt,
+    options: &LoopOptions,
+    context: &Context,
+) -> Result<Tried> {
+    let values = field.solve(attempt.reach, attempt.smooth / attempt.levels as f64, context)?;
+    let Start { mesh, alive, fault } = start::start(points, &values, triangles, attempt.levels, context)?;
+    if let Some(face) = fault {
+        return Ok(Err(face));
+    }
+    let arrangement = Arrangement::new(&mesh, &alive);
+    let energies = Energies::new(&mesh, &alive, &arrangement);
+    let mut moves = Moves::new(&mesh, &alive, arrangement, energies);
+    if !moves.order.is_acyclic() {
+        return Ok(Err(mesh.triangles[0].origin));
+    }
+    coarsen::coarsen(&mut moves, options, context)?;
+    let corners = moves.corners();
+    let misfit = moves.misfit();
+    let worth = LoopOptions { corners: None, ..*options }.worth_of_corner();
+    let (arrangement, zone_of_crossing) = moves.finish();
+    Ok(Ok((misfit + worth * corners as f64, LoopSet { mesh, arrangement, zone_of_crossing, corners, misfit })))
+}
