@@ -33,6 +33,7 @@ pub mod context;
 pub mod error;
 pub mod generate;
 pub mod layout;
+pub mod make;
 pub mod map;
 pub mod measure;
 pub mod mesh;

@@ -6,6 +6,7 @@ mod compare;
 mod completions;
 mod demo;
 mod inspect;
+mod make;
 mod remesh;
 mod simplify;
 mod validate;
@@ -25,7 +26,8 @@ Exit codes:
   3    not a valid polycube: violations found, shape and polycube do not match,
        or `--strategy naive` broke it
   4    `remesh`: the meshes are written, but hexahedra are inverted, or the surface is farther
-       from the shape than `--max-hausdorff` allows
+       from the shape than `--max-hausdorff` allows; `make`: the polycube is written, but its map
+       is folded in places
   130  cancelled with Ctrl-C; no file is left half written
 
 Mesh files: .obj .off .ply .stl (surfaces), .mesh .vtk .vtu (surfaces, tetrahedra, hexahedra).
@@ -54,6 +56,8 @@ pub fn command() -> clap::Command {
 /// What the command can do.
 #[derive(Debug, Subcommand)]
 pub enum Command {
+    /// Make a polycube of a closed surface
+    Make(make::Args),
     /// Simplify a polycube and write the result with a report
     Simplify(simplify::Args),
     /// Simplify a polycube and mesh its shape with the blocks found: coarse layout, quadrilaterals, hexahedra
@@ -75,6 +79,7 @@ pub enum Command {
 /// Does what was asked for.
 pub fn run(command: Command) -> Result<ExitCode> {
     match command {
+        Command::Make(args) => make::run(&args),
         Command::Simplify(args) => simplify::run(&args),
         Command::Remesh(args) => remesh::run(&args),
         Command::Compare(args) => compare::run(&args),

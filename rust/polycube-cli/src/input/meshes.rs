@@ -1,9 +1,10 @@
 //! The meshes and labels that a subcommand works on.
 
 use crate::failure::{Failure, Result};
+use polycube::make::{Made, MakeOptions, make};
 use polycube::mesh::{self, Mesh};
 use polycube::simplify::Input;
-use polycube::{Error, ErrorKind};
+use polycube::{Context, Error, ErrorKind};
 use std::path::Path;
 
 /// A polycube, with the shape and the labels that came with it.
@@ -22,6 +23,13 @@ impl MeshFiles {
         let (mesh, shape) = read_meshes(polycube, shape).map_err(Failure::in_reading)?;
         let labels = labels.map(|file| read_labels(file, polycube, &mesh)).transpose()?;
         Ok(Self { polycube: mesh, shape, labels })
+    }
+
+    /// Reads a shape and makes its polycube.
+    pub fn make(shape: &Path, options: &MakeOptions, context: &Context) -> Result<Self> {
+        let mesh = mesh::read(shape).map_err(Failure::in_reading)?;
+        let Made { shape, polycube, labels, .. } = make(&mesh, options, context).map_err(Failure::in_file(shape))?;
+        Ok(Self { polycube, shape: Some(shape), labels: Some(labels) })
     }
 
     /// What the library takes.

@@ -3,6 +3,7 @@
 pub mod choice;
 pub mod effect;
 pub mod format;
+pub mod make;
 pub mod mesh;
 pub mod number;
 pub mod polycube;

@@ -3,6 +3,7 @@
 use super::front::Point;
 use polycube::align::{Effort, Guides, SolverKind};
 use polycube::layout::Objective;
+use polycube::make::{MakeOptions, MakeReport};
 use polycube::remesh::{RemeshOptions, RemeshReport, Size};
 use polycube::simplify::{Options, Report, Simplified};
 use polycube::structure::{Arrangement, Edge, Facet, Tolerance, placement_of};
@@ -11,12 +12,24 @@ use serde::Serialize;
 /// The files a run read, as they were named.
 #[derive(Clone, Debug, Serialize)]
 pub struct Files {
-    /// The polycube.
-    pub polycube: String,
+    /// The polycube; nothing where one was made.
+    pub polycube: Option<String>,
     /// The shape it was deformed from.
     pub shape: Option<String>,
     /// The label file.
     pub labels: Option<String>,
+}
+
+/// `report.json` of `make`.
+#[derive(Debug, Serialize)]
+pub struct MakeRun<'a> {
+    /// The shape, as it was named.
+    pub input: &'a str,
+    /// How the polycube was made.
+    pub options: MakeOptions,
+    /// What came out.
+    #[serde(flatten)]
+    pub report: &'a MakeReport,
 }
 
 /// `report.json`.

@@ -21,6 +21,7 @@ mod tests;
 
 pub use lattice::{Carrier, MOST_HEXES, Size, count_hexes, scale_for};
 pub use map::LatticeMap;
+pub(crate) use map::Refined;
 pub use mesher::{Hexes, Layout, MAX_PADDING, Quads, Remesher, SingularEdge};
 pub use options::RemeshOptions;
 pub use pipeline::{Remeshed, remesh};

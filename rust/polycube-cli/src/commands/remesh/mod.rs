@@ -6,6 +6,7 @@ use crate::failure::{Failure, INFERIOR, Result};
 use crate::input::meshes::MeshFiles;
 use crate::options::choice::ChoiceArgs;
 use crate::options::format::format;
+use crate::options::make::MakeArgs;
 use crate::options::mesh::MeshArgs;
 use crate::options::number::percent;
 use crate::options::polycube::{LabelsArg, ToleranceArgs};
@@ -38,6 +39,8 @@ In the output folder:
   polycube.labels the label of each of its boundary faces, one a line, for --labels
   report.json     that of `simplify`, and hexes, inverted, min_sj, avg_sj, hausdorff, quads,
                   histogram, least, largest and mean of the other arrays, times
+Without --polycube one is made of SHAPE, a closed surface, which is cut finer where its map needs
+room; `polycube make` writes it down instead.
 They appear together when all is done, or not at all. With --surface-only there are no hexahedra
 and no layout.vtk. --format EXT writes hexahedra (or, if it holds surfaces only, quadrilaterals) in
 that format, too; quads.ply has a colour for each patch.
@@ -49,15 +52,24 @@ hexes.vtu) or the surface is farther from the shape than --max-hausdorff.
 
 /// What to mesh and how.
 #[derive(clap::Args, Clone, Debug)]
-#[command(after_help = NOTES)]
+#[command(
+    after_help = NOTES,
+    mut_arg("labels", |labels| labels.requires("polycube")),
+    mut_arg("detail", |detail| detail.conflicts_with("polycube")),
+    mut_arg("corners", |corners| corners.conflicts_with("polycube"))
+)]
 pub struct Args {
-    /// The shape: a mesh file with the vertices and cells of the polycube
+    /// The shape: a mesh file with the vertices and cells of the polycube, or any closed surface without one
     #[arg(value_name = "SHAPE", value_hint = ValueHint::FilePath)]
     pub shape: PathBuf,
 
-    /// The polycube: a mesh file whose boundary faces look along the axes
+    /// The polycube: a mesh file whose boundary faces look along the axes [default: one is made, as `make` does]
     #[arg(long, value_name = "POLYCUBE", value_hint = ValueHint::FilePath)]
-    pub polycube: PathBuf,
+    pub polycube: Option<PathBuf>,
+
+    /// How closely a polycube that is made follows the shape.
+    #[command(flatten)]
+    pub make: MakeArgs,
 
     /// What its boundary faces look along.
     #[command(flatten)]
@@ -111,13 +123,13 @@ impl Args {
     }
 
     fn inputs(&self) -> Vec<&Path> {
-        [&self.shape, &self.polycube].into_iter().chain(&self.labels.file).map(PathBuf::as_path).collect()
+        std::iter::once(&self.shape).chain(&self.polycube).chain(&self.labels.file).map(PathBuf::as_path).collect()
     }
 
     fn files(&self) -> Files {
         let name = |path: &Path| path.display().to_string();
         Files {
-            polycube: name(&self.polycube),
+            polycube: self.polycube.as_deref().map(name),
             shape: Some(name(&self.shape)),
             labels: self.labels.file.as_deref().map(name),
         }
@@ -142,15 +154,24 @@ pub fn run(args: &Args) -> Result<ExitCode> {
     Ok(ExitCode::from(INFERIOR))
 }
 
+/// Reads the polycube, or makes one.
+fn meshes(args: &Args, context: &Context) -> Result<MeshFiles> {
+    match &args.polycube {
+        Some(polycube) => MeshFiles::read(polycube, Some(&args.shape), args.labels.file.as_deref()),
+        None => MeshFiles::make(&args.shape, &args.make.get(), context),
+    }
+}
+
 /// Reads, meshes, writes.
 pub fn work(args: &Args, context: &Context) -> Result<Remeshed> {
     let start = Instant::now();
     context.stage("read", 0.0, 0.05).tick(0.0)?;
-    let meshes = MeshFiles::read(&args.polycube, Some(&args.shape), args.labels.file.as_deref())?;
-    let formats = Formats::new(&args.polycube, args.format, &meshes)?;
+    let meshes = meshes(args, &context.stage("make", 0.0, 0.1))?;
+    let polycube = args.polycube.as_ref().unwrap_or(&args.shape);
+    let formats = Formats::new(polycube, args.format, &meshes)?;
     let read = start.elapsed().as_secs_f64();
-    let middle = context.stage("read", 0.05, 0.95);
-    let about = Failure::in_files(&args.polycube, args.search.guides.as_deref());
+    let middle = context.stage("read", 0.1, 0.95);
+    let about = Failure::in_files(polycube, args.search.guides.as_deref());
     let (input, mut options) = (meshes.input(), args.options());
     options.simplify.guides = args.search.guides()?;
     let mut result = remesh(&input, &options, &middle).map_err(about)?;

@@ -127,7 +127,7 @@ impl Args {
     fn files(&self) -> Files {
         let name = |path: &Path| path.display().to_string();
         Files {
-            polycube: name(&self.mesh.polycube),
+            polycube: Some(name(&self.mesh.polycube)),
             shape: self.shape.as_deref().map(name),
             labels: self.mesh.labels.file.as_deref().map(name),
         }

@@ -42,6 +42,19 @@ impl Refined {
         self.split(|facet, e| marked[facet as usize] && along.binary_search(&e).is_err())
     }
 
+    /// Cuts all edges inside facets at the vertices of the triangles listed.
+    pub(crate) fn split_near(&mut self, triangles: &[usize]) -> Result<()> {
+        let mut marked = vec![false; self.points.len()];
+        triangles.iter().flat_map(|&t| self.triangles[t]).for_each(|v| marked[v as usize] = true);
+        let along = self.along();
+        self.split(|_, e| e.iter().any(|&v| marked[v as usize]) && along.binary_search(&e).is_err())
+    }
+
+    /// The label of each triangle, 0 to 5.
+    pub(crate) fn labels(&self) -> Vec<i8> {
+        self.polycube.labels().map(|l| l.index() as i8).collect()
+    }
+
     /// The mesh edges along the edges of the polycube, sorted.
     fn along(&self) -> Vec<[u32; 2]> {
         let chains = self.polycube.chains.iter().flat_map(|c| c.windows(2).map(|s| key(s[0], s[1])));

@@ -1,0 +1,107 @@
+//! `polycube make`.
+
+use crate::failure::{Failure, INFERIOR, Result};
+use crate::options::format::format;
+use crate::options::make::MakeArgs;
+use crate::options::run::{FolderArg, QuietArg};
+use crate::output::folder::{LABELS, Output, REPORT};
+use crate::output::progress::Progress;
+use crate::output::report::MakeRun;
+use crate::output::terminal;
+use clap::ValueHint;
+use polycube::make::{Made, make};
+use polycube::mesh::{self, CellKind, Format};
+use polycube::{Context, Error, ErrorKind};
+use std::path::PathBuf;
+use std::process::ExitCode;
+
+const NOTES: &str = "\
+In the output folder:
+  shape.EXT       the shape as triangles, cut finer in places where the map needs room; the vertices
+                  of SHAPE come first and keep their numbers
+  polycube.EXT    the polycube, vertex by vertex and triangle by triangle that of shape.EXT
+  polycube.labels the label of each of its faces, one a line, for --labels
+  report.json     corners, edges, facets, genus, misfit, distortion, added vertices, times
+They appear together when all is done, or not at all. Then
+  polycube remesh out/shape.EXT --polycube out/polycube.EXT --labels out/polycube.labels -o mesh
+meshes the shape. SHAPE is a closed surface of triangles or quadrilaterals, of any genus and any
+number of parts. The axes are those of the file: turn the shape to have another polycube.
+Exit code 4: the files are written, but the map is folded in places, which report.json lists.";
+
+/// The shape and what is wanted.
+#[derive(clap::Args, Clone, Debug)]
+#[command(after_help = NOTES)]
+pub struct Args {
+    /// The shape: a mesh file of a closed surface
+    #[arg(value_name = "SHAPE", value_hint = ValueHint::FilePath)]
+    pub shape: PathBuf,
+
+    /// Where the results go.
+    #[command(flatten)]
+    pub output: FolderArg,
+
+    /// How closely the polycube follows the shape.
+    #[command(flatten)]
+    pub make: MakeArgs,
+
+    /// Format of shape and polycube: obj, off, ply, stl, mesh, vtk or vtu [default: as the input]
+    #[arg(long, value_name = "EXT", value_parser = format)]
+    pub format: Option<Format>,
+
+    /// Whether it is silent.
+    #[command(flatten)]
+    pub quiet: QuietArg,
+}
+
+/// Runs the subcommand.
+pub fn run(args: &Args) -> Result<ExitCode> {
+    let progress = Progress::start(args.quiet.on)?;
+    let made = work(args, &progress.context)?;
+    drop(progress);
+    let report = &made.report;
+    if !args.quiet.on {
+        terminal::print(&format!(
+            "{} corners, {} edges, {} facets, genus {}; {} vertices added; {:.2} s\nwritten to {}\n",
+            report.corners,
+            report.edges,
+            report.facets,
+            report.genus,
+            report.added,
+            report.seconds.total,
+            args.output.folder.display()
+        ))?;
+    }
+    if report.folded.is_empty() {
+        return Ok(ExitCode::SUCCESS);
+    }
+    let count = report.folded.len();
+    terminal::print_error(&format!("warning: {count} triangles of the map are turned over: report.json lists them"));
+    Ok(ExitCode::from(INFERIOR))
+}
+
+fn work(args: &Args, context: &Context) -> Result<Made> {
+    context.stage("read", 0.0, 0.05).tick(0.0)?;
+    let shape = mesh::read(&args.shape).map_err(Failure::in_reading)?;
+    let format = args.format.map_or_else(|| Format::from_path(&args.shape), Ok)?;
+    if !format.holds(CellKind::Triangles) {
+        return Err(Error::new(ErrorKind::Option, format!("a .{format} file cannot hold triangles")).into());
+    }
+    let about = Failure::in_file(&args.shape);
+    let made = make(&shape, &args.make.get(), &context.stage("make", 0.05, 0.95)).map_err(about)?;
+    write(args, &made, format, &context.stage("write", 0.95, 1.0))?;
+    Ok(made)
+}
+
+fn write(args: &Args, made: &Made, format: Format, context: &Context) -> Result<()> {
+    let mut output = Output::new(&args.output.folder)?;
+    for (i, (name, mesh)) in [("shape", &made.shape), ("polycube", &made.polycube)].into_iter().enumerate() {
+        context.tick(i as f64 / 2.0)?;
+        output.add(&format!("{name}.{format}"), &mesh::write_bytes(format, mesh, &[])?)?;
+    }
+    let labels: String = made.labels.iter().map(|l| format!("{l}\n")).collect();
+    output.add(LABELS, labels.as_bytes())?;
+    let run = MakeRun { input: &args.shape.display().to_string(), options: args.make.get(), report: &made.report };
+    output.add(REPORT, terminal::to_json(&run)?.as_bytes())?;
+    let stale = output.meshes_left(&[("shape", &CellKind::ALL), ("polycube", &CellKind::ALL)]);
+    Ok(output.publish(&stale, &[args.shape.as_path()], context)?)
+}

@@ -1,0 +1,24 @@
+//! How a polycube is made of a shape.
+
+use super::number::{fraction, whole};
+use clap::Args;
+use polycube::make::MakeOptions;
+
+/// How closely a polycube follows its shape.
+#[derive(Args, Clone, Copy, Debug)]
+pub struct MakeArgs {
+    /// How much of the shape the polycube follows, from 0, as few corners as can be, to 1
+    #[arg(long, value_name = "D", value_parser = fraction, default_value_t = MakeOptions::default().detail)]
+    pub detail: f64,
+
+    /// Take corners away until no more than N are left, as far as the shape allows, whatever --detail says
+    #[arg(long, value_name = "N", value_parser = whole::<usize>(8..=u64::from(u32::MAX)))]
+    pub corners: Option<usize>,
+}
+
+impl MakeArgs {
+    /// What the library takes.
+    pub fn get(self) -> MakeOptions {
+        MakeOptions { detail: self.detail, corners: self.corners }
+    }
+}

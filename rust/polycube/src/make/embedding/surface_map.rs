@@ -1,0 +1,126 @@
+//! The map from the charts of a shape to the facets of its polycube, made one to one.
+
+use crate::context::Context;
+use crate::error::Result;
+use crate::map::{SparseRows, extend_harmonic};
+use crate::mesh::{Face, Point, Stars};
+use crate::optimise::{Elements, Freedom, Scope, Settings, optimise};
+use crate::remesh::Refined;
+use crate::simplify::CornerTetrahedra;
+
+/// How often what stays folded is cut finer and tried again.
+const ROUNDS: usize = 5;
+/// The least weight of an edge in the harmonic start: positive, so that convex facets are never folded (Tutte 1963).
+const LEAST_WEIGHT: f64 = 0.05;
+
+const UNFOLD: Settings = Settings {
+    theta: 0.1,
+    scope: Scope::Whole,
+    untangle_rounds: 100,
+    untangle_iterations: 200,
+    least_gain: 0.1,
+    improve_rounds: 0,
+    improve_iterations: 0,
+    average: 0.0,
+    strength: 0.0,
+    polish_rounds: 0,
+};
+const SMOOTH: Settings = Settings { untangle_rounds: 0, improve_rounds: 2, improve_iterations: 50, ..UNFOLD };
+
+/// Lays every chart flat in its facet, with the borders held, then lets vertices slide along the edges. Triangles that cannot be
+/// turned the right way round are cut finer. Returns those that stay turned over.
+pub(crate) fn unfold(refined: &mut Refined, context: &Context) -> Result<Vec<usize>> {
+    lay_flat(refined, &context.stage("map", 0.0, 0.1))?;
+    let mut folded = turned_over(refined);
+    for round in 0..ROUNDS {
+        if folded.is_empty() {
+            return smooth(refined, &context.stage("map", 0.8, 1.0)).map(|()| folded);
+        }
+        if round > 0 {
+            refined.split_near(&folded)?;
+            folded = turned_over(refined);
+        }
+        let [from, to] = [round, round + 1].map(|r| 0.1 + 0.7 * r as f64 / ROUNDS as f64);
+        unfold_facets(refined, &folded, &context.stage("map", from, to))?;
+        folded = turned_over(refined);
+    }
+    Ok(folded)
+}
+
+fn turned_over(refined: &Refined) -> Vec<usize> {
+    CornerTetrahedra::of_surface(&refined.polycube, &refined.points, &refined.shape).turned_over()
+}
+
+/// Untangles the facets of the triangles listed, each as a whole: what is near alone would often be caught.
+fn unfold_facets(refined: &mut Refined, folded: &[usize], context: &Context) -> Result<()> {
+    let mut marked = vec![false; refined.polycube.structure.facets.len()];
+    folded.iter().for_each(|&t| marked[refined.polycube.facet_of_face[t] as usize] = true);
+    let mut corners = CornerTetrahedra::of_surface(&refined.polycube, &refined.points, &refined.shape);
+    let facets = &refined.polycube.facet_of_face;
+    let chosen = |(_, facet): &(&[u32; 4], &u32)| marked[**facet as usize];
+    let own: Vec<[u32; 4]> = corners.tetrahedra.iter().zip(facets).filter(chosen).map(|(t, _)| *t).collect();
+    let elements = Elements::tetrahedra_like(&own, &corners.rest)?;
+    optimise(&mut corners.points, &elements, &corners.freedom, &[], &UNFOLD, context)?;
+    corners.points.truncate(refined.points.len());
+    refined.points = corners.points;
+    Ok(())
+}
+
+/// Lets vertices slide along the edges.
+fn smooth(refined: &mut Refined, context: &Context) -> Result<()> {
+    let mut corners = CornerTetrahedra::of_surface(&refined.polycube, &refined.points, &refined.shape);
+    for (freedom, levels) in corners.freedom.iter_mut().zip(&refined.polycube.vertex_levels) {
+        if levels.iter().flatten().count() == 2 {
+            *freedom = Freedom::Axes(levels.map(|l| l.is_some()));
+        }
+    }
+    let elements = Elements::tetrahedra_like(&corners.tetrahedra, &corners.rest)?;
+    optimise(&mut corners.points, &elements, &corners.freedom, &[], &SMOOTH, context)?;
+    corners.points.truncate(refined.points.len());
+    refined.points = corners.points;
+    Ok(())
+}
+
+/// Puts the vertices inside facets at the weighted means of their neighbours.
+fn lay_flat(refined: &mut Refined, context: &Context) -> Result<()> {
+    let known: Vec<[bool; 3]> = refined
+        .polycube
+        .vertex_levels
+        .iter()
+        .map(|levels| match levels.iter().flatten().count() {
+            0 | 1 => levels.map(|l| l.is_some()),
+            _ => [true; 3],
+        })
+        .collect();
+    let mut field: Vec<[f64; 3]> = refined.points.iter().map(|p| [p.x, p.y, p.z]).collect();
+    extend_harmonic(&weights(refined), &known, &mut field, context)?;
+    refined.points = field.into_iter().map(Point::from).collect();
+    Ok(())
+}
+
+/// Cotangents of the angles on the shape, none below [`LEAST_WEIGHT`].
+fn weights(refined: &Refined) -> SparseRows {
+    let triangles: Vec<[u32; 3]> = refined.polycube.surface.faces().iter().flat_map(Face::triangles).collect();
+    let stars = Stars::new(refined.points.len(), triangles.iter().copied());
+    let mut rows = SparseRows::new();
+    let mut row = Vec::new();
+    for v in 0..refined.points.len() {
+        for &t in stars.of(v) {
+            let triangle = triangles[t as usize];
+            let i = triangle.iter().position(|&u| u as usize == v).unwrap_or(0);
+            let [a, b, c] = [0, 1, 2].map(|k| triangle[(i + k) % 3]);
+            row.push((b, cotangent(&refined.shape, c, a, b)));
+            row.push((c, cotangent(&refined.shape, b, c, a)));
+        }
+        rows.push(&mut row);
+    }
+    rows
+}
+
+/// The cotangent of the angle at `at`, within bounds.
+fn cotangent(points: &[Point], at: u32, from: u32, to: u32) -> f64 {
+    let [p, a, b] = [at, from, to].map(|v| points[v as usize]);
+    let (u, w) = (a - p, b - p);
+    let area = u.cross(&w).norm();
+    if area > 0.0 { (u.dot(&w) / area).clamp(LEAST_WEIGHT, 1.0 / LEAST_WEIGHT) } else { 1.0 }
+}
