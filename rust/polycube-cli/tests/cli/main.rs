@@ -9,6 +9,7 @@ mod failures;
 mod guides;
 mod inspect;
 mod interrupt;
+mod make;
 mod real;
 mod remesh;
 mod simplify;

@@ -1,8 +1,8 @@
 //! A polycube of a plain shape: any closed, oriented, manifold surface, of any genus and any number of parts.
 //!
-//! [`make`] is the way in. It goes from structure to place: [`loops`] finds few closed curves of three kinds on the surface whose dual
-//! is a polycube, valid from the first to the last, [`charts`] draws that polycube's facets on the surface, and [`embedding`] puts
-//! them in space, apart from each other, and lays each chart flat in its facet.
+//! [`make()`] is the way in. It goes from structure to place: `loops` finds few closed curves of three kinds on the surface whose
+//! dual is a polycube, valid from the first to the last, `charts` draws that polycube's facets on the surface, and `embedding`
+//! puts them in space, apart from each other, and lays each chart flat in its facet.
 
 mod charts;
 mod embedding;
@@ -66,7 +66,7 @@ pub struct Made {
 /// Makes a polycube of a surface.
 ///
 /// The structure comes first: level sets of three functions on the surface, near to the coordinates, are made a valid set of loops
-/// ([`loops`]), and loops are taken away as long as a corner less is worth what the surface then looks another way. What is valid and
+/// (see ARCHITECTURE.md), and loops are taken away as long as a corner less is worth what the surface then looks another way. What is valid and
 /// of the right topology stays so with every step. The polycube is checked exactly on integers at the end: embedded, of the topology of
 /// the shape. Same input, same bytes, for any number of threads.
 ///
@@ -100,6 +100,9 @@ pub fn make(shape: &Mesh, options: &MakeOptions, context: &Context) -> Result<Ma
     let drawn = charts::charts(&shape.points, &triangles, &set, &context.stage("charts", 0.4, 0.5))?;
     seconds.charts = clock.elapsed().as_secs_f64() - seconds.loops;
     let embedded = embedding::embed(&drawn, &set, &context.stage("embed", 0.5, 1.0))?;
+    if embedded.polycube.structure.corners.len() != set.corners {
+        return Err(Error::new(ErrorKind::Internal, "the polycube has other corners than its loops"));
+    }
     seconds.total = clock.elapsed().as_secs_f64();
     seconds.embedding = seconds.total - seconds.loops - seconds.charts;
     Ok(finish(shape, &set, embedded, seconds))

@@ -94,6 +94,13 @@ impl Elements {
         Ok(Self::new(tets.to_vec(), shapes, weights, 1, Measure::MeanRatio))
     }
 
+    /// Tetrahedra that should be regular, all of one size and one weight, so that thin ones count as much as others where a mesh is
+    /// to be untangled.
+    pub fn regular_tetrahedra(tets: &[[u32; 4]]) -> Self {
+        let shapes = vec![regular(); tets.len()];
+        Self::new(tets.to_vec(), shapes, vec![1.0; tets.len()], 1, Measure::MeanRatio)
+    }
+
     /// Hexahedra in VTK's order that should be cubes, all of one size: eight corner tetrahedra each.
     ///
     /// The optimiser then guarantees that the Jacobian is positive at all eight corners. That is what solvers and

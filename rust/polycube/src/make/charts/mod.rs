@@ -94,6 +94,3 @@ impl Traced {
         Charts { points, triangles, chart, labels, crossings }
     }
 }
-
-#[cfg(test)]
-mod tests;

@@ -48,7 +48,10 @@ fn best_chart(mesh: &Triangulation, labels: &[u8], t: u32, stiffness: f64) -> Op
     let cost = |chart: u32| stiffness * border(chart) - along(&normal, labels[chart as usize]);
     let now = cost(own);
     let others = triangle.neighbours.iter().map(|&u| patch(mesh, u)).filter(|&c| c != own);
-    let best = others.filter(|&c| may_move(mesh, t, c)).map(|c| (cost(c), c)).min_by(|a, b| a.0.total_cmp(&b.0).then(a.1.cmp(&b.1)))?;
+    let best = others
+        .filter(|&c| may_move(mesh, t, c))
+        .map(|c| (cost(c), c))
+        .min_by(|a, b| a.0.total_cmp(&b.0).then(a.1.cmp(&b.1)))?;
     (best.0 < now - 1e-12 * normal.norm()).then_some(best.1)
 }
 

@@ -56,7 +56,14 @@ impl<'a> Tracer<'a> {
                     blocked[vertices[(k + 1) % 3] as usize] = true;
                 }
             }
-            triangles.push(Triangle { vertices, neighbours, barrier, border: [false; 3], origin: t.origin, patch: NONE });
+            triangles.push(Triangle {
+                vertices,
+                neighbours,
+                barrier,
+                border: [false; 3],
+                origin: t.origin,
+                patch: NONE,
+            });
         }
         let mut mesh = Triangulation { points: cut.points.clone(), triangles, at };
         let members = mesh.flood(|t, k| t.barrier[k]);

@@ -82,16 +82,16 @@ impl<'a> Embedding<'a> {
     /// The polycube with its levels as near to `targets` as their order allows.
     fn put(&self, targets: &[f64], context: &Context) -> Result<(Mesh, Polycube)> {
         let levels = self.levels.solve(targets, context)?;
-        let fixed = edges::prescribed(self.charts, |chart| levels[self.levels.of_chart[chart as usize] as usize] as f64);
+        let fixed =
+            edges::prescribed(self.charts, |chart| levels[self.levels.of_chart[chart as usize] as usize] as f64);
         let mut points = self.charts.points.clone();
         for (point, fixed) in points.iter_mut().zip(&fixed) {
             (0..3).for_each(|a| point[a] = fixed[a].unwrap_or(point[a] * self.levels.scale));
         }
         let mesh = Mesh { points, cells: Cells::Triangles(self.charts.triangles.clone()) };
         let tolerance = Tolerance { merge: 0.0, ..Tolerance::default() };
-        let polycube = Polycube::new(&mesh, Some(&self.labels), &tolerance).map_err(|v| {
-            Error::new(ErrorKind::Internal, format!("the charts are no polycube: {}", v[0]))
-        })?;
+        let polycube = Polycube::new(&mesh, Some(&self.labels), &tolerance)
+            .map_err(|v| Error::new(ErrorKind::Internal, format!("the charts are no polycube: {}", v[0])))?;
         Ok((mesh, polycube))
     }
 

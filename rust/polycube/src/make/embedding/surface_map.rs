@@ -41,7 +41,7 @@ pub(crate) fn unfold(refined: &mut Refined, context: &Context) -> Result<Vec<usi
             folded = turned_over(refined);
         }
         let [from, to] = [round, round + 1].map(|r| 0.1 + 0.7 * r as f64 / ROUNDS as f64);
-        unfold_facets(refined, &folded, &context.stage("map", from, to))?;
+        unfold_facets(refined, &folded, round, &context.stage("map", from, to))?;
         folded = turned_over(refined);
     }
     Ok(folded)
@@ -51,15 +51,17 @@ fn turned_over(refined: &Refined) -> Vec<usize> {
     CornerTetrahedra::of_surface(&refined.polycube, &refined.points, &refined.shape).turned_over()
 }
 
-/// Untangles the facets of the triangles listed, each as a whole: what is near alone would often be caught.
-fn unfold_facets(refined: &mut Refined, folded: &[usize], context: &Context) -> Result<()> {
+/// Untangles the facets of the triangles listed, each as a whole: what is near alone would often be caught. At first triangles shall look
+/// as on the shape; where that leaves some turned over, thin ones, which hardly count there, shall look like all others.
+fn unfold_facets(refined: &mut Refined, folded: &[usize], round: usize, context: &Context) -> Result<()> {
     let mut marked = vec![false; refined.polycube.structure.facets.len()];
     folded.iter().for_each(|&t| marked[refined.polycube.facet_of_face[t] as usize] = true);
     let mut corners = CornerTetrahedra::of_surface(&refined.polycube, &refined.points, &refined.shape);
     let facets = &refined.polycube.facet_of_face;
     let chosen = |(_, facet): &(&[u32; 4], &u32)| marked[**facet as usize];
     let own: Vec<[u32; 4]> = corners.tetrahedra.iter().zip(facets).filter(chosen).map(|(t, _)| *t).collect();
-    let elements = Elements::tetrahedra_like(&own, &corners.rest)?;
+    let like = |own: &[[u32; 4]]| Elements::tetrahedra_like(own, &corners.rest);
+    let elements = if round == 0 { like(&own)? } else { Elements::regular_tetrahedra(&own) };
     optimise(&mut corners.points, &elements, &corners.freedom, &[], &UNFOLD, context)?;
     corners.points.truncate(refined.points.len());
     refined.points = corners.points;

@@ -142,11 +142,11 @@ impl<'a> Search<'a> {
 
     /// Makes a move if it is still as good as it was. Returns by how many the corners grow.
     fn make(&mut self, price_before: f64, loops: &[u32]) -> i64 {
-        if let Trial::Valid(m) = self.moves.try_loops(loops) {
-            if price(&m, self.worth).is_some_and(|p| p <= price_before + 1e-12) {
-                self.moves.take(loops);
-                return m.corners;
-            }
+        if let Trial::Valid(m) = self.moves.try_loops(loops)
+            && price(&m, self.worth).is_some_and(|p| p <= price_before + 1e-12)
+        {
+            self.moves.take(loops);
+            return m.corners;
         }
         let stale = |k: &Option<Known>| k.as_ref().and_then(|k| k.best.as_ref()).is_some_and(|b| b.1.loops == loops);
         self.single.iter_mut().chain(&mut self.several).filter(|k| stale(k)).for_each(|k| *k = None);

@@ -13,7 +13,7 @@ pub(super) struct Energies(pub(super) Vec<[f64; 6]>);
 /// The part of a vector along the direction of a label.
 pub(super) fn along(n: &Vector3<f64>, label: usize) -> f64 {
     let x = n[label / 2];
-    if label % 2 == 0 { x } else { -x }
+    if label.is_multiple_of(2) { x } else { -x }
 }
 
 impl Energies {

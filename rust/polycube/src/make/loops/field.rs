@@ -31,14 +31,12 @@ impl Field {
         for t in triangles {
             let p = t.map(|v| points[v as usize]);
             let Some(normal) = (p[1] - p[0]).cross(&(p[2] - p[0])).try_normalize(0.0) else { continue };
-            for axis in 0..3 {
-                let wanted = gradient(&normal, axis);
-                for k in 0..3 {
-                    let [i, j] = [(k + 1) % 3, (k + 2) % 3];
-                    let flow = weight(&p, k) * wanted.dot(&(p[i] - p[j]));
-                    sources[t[i] as usize][axis] += flow;
-                    sources[t[j] as usize][axis] -= flow;
-                }
+            let wanted = [0, 1, 2].map(|axis| gradient(&normal, axis));
+            for k in 0..3 {
+                let [i, j] = [(k + 1) % 3, (k + 2) % 3];
+                let flow = wanted.map(|w| weight(&p, k) * w.dot(&(p[i] - p[j])));
+                sources[t[i] as usize].iter_mut().zip(flow).for_each(|(source, f)| *source += f);
+                sources[t[j] as usize].iter_mut().zip(flow).for_each(|(source, f)| *source -= f);
             }
         }
         let low = points.iter().fold([f64::INFINITY; 3], |l, p| [0, 1, 2].map(|a| l[a].min(p[a])));

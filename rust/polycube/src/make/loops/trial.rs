@@ -48,6 +48,12 @@ pub(super) struct Transfer {
     pub(super) to: [u32; 2],
 }
 
+/// The least arc around a region, and whether it is a corner.
+type CornerOrNot = (Arc, bool);
+
+/// How many regions would be invalid, and the loops around the smallest.
+type Invalid = (usize, Vec<u32>);
+
 /// Invalid regions that are looked at before a trial is given up.
 const MOST_INVALID: usize = 64;
 /// Loops of a trial that is still extended.
@@ -209,7 +215,7 @@ impl Moves {
     }
 
     /// The regions at these crossings, and whether each is a corner.
-    fn regions_before(&self, crossings: &[u32]) -> Vec<(Arc, bool)> {
+    fn regions_before(&self, crossings: &[u32]) -> Vec<CornerOrNot> {
         let arcs = crossings.iter().flat_map(|q| (0..4).map(move |f| q * 4 + f));
         let region = |h| self.arrangement.region(h).unwrap_or_else(|| (self.arrangement.outline(h).0, false));
         let mut regions: Vec<_> = arcs.map(region).collect();
@@ -220,7 +226,7 @@ impl Moves {
 
     /// The regions there would be without these crossings of doomed loops; if some are invalid, how many, and the loops around
     /// the smallest.
-    fn regions_after(&mut self, crossings: &[u32]) -> Result<Vec<(Arc, bool)>, (usize, Vec<u32>)> {
+    fn regions_after(&mut self, crossings: &[u32]) -> Result<Vec<CornerOrNot>, Invalid> {
         let fresh = self.unlink(crossings);
         let mut regions = Vec::new();
         let mut invalid: Vec<(usize, Arc, Vec<u32>)> = Vec::new();

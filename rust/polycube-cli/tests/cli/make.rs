@@ -1,0 +1,56 @@
+//! `polycube make`, and `polycube remesh` without a polycube.
+
+use super::Sandbox;
+use polycube::generate::{Example, example};
+use polycube::mesh::{self, CellKind};
+
+/// A sandbox with a plain shape named `shape.obj`.
+fn sandbox() -> Sandbox {
+    let sandbox = Sandbox::new();
+    let (_, shape) = example(Example::Ring, 1, CellKind::Quads).unwrap();
+    sandbox.write_mesh("shape.obj", &shape);
+    sandbox
+}
+
+#[test]
+fn what_is_made_is_valid_and_can_be_meshed() {
+    let sandbox = sandbox();
+    let out = sandbox.ok("make shape.obj -o out");
+    assert!(out.contains("corners") && out.contains("genus 1"), "{out}");
+    assert_eq!(sandbox.names("out"), ["polycube.labels", "polycube.obj", "report.json", "shape.obj"]);
+    sandbox.ok("validate out/polycube.obj --labels out/polycube.labels --shape out/shape.obj");
+    let [shape, cube] = ["shape", "polycube"].map(|f| mesh::read(&sandbox.path(&format!("out/{f}.obj"))).unwrap());
+    assert_eq!(shape.cells, cube.cells);
+    let report = sandbox.json("out/report.json");
+    assert_eq!((report["genus"].as_u64(), &report["folded"]), (Some(1), &serde_json::json!([])));
+    sandbox.ok("simplify out/polycube.obj --labels out/polycube.labels --shape out/shape.obj -o simple -q");
+}
+
+#[test]
+fn a_shape_alone_is_meshed() {
+    let sandbox = sandbox();
+    sandbox.ok("remesh shape.obj -o out --hexes 1500 --max-hausdorff 5 -q");
+    let report = sandbox.json("out/report.json");
+    assert_eq!((report["inverted"].as_u64(), &report["input"]["polycube"]), (Some(0), &serde_json::Value::Null));
+}
+
+#[test]
+fn options_of_making_and_of_a_polycube_exclude_each_other() {
+    let sandbox = sandbox();
+    for (arguments, word) in [
+        ("--polycube shape.obj --detail 0.3", "--detail"),
+        ("--polycube shape.obj --corners 9", "--corners"),
+        ("--labels x.labels", "--polycube"),
+        ("--detail 1.5", "from 0 to 1"),
+    ] {
+        sandbox.fails(&format!("remesh shape.obj -o out {arguments}"), 2, &[word]);
+    }
+}
+
+#[test]
+fn an_open_surface_is_refused_with_the_edge() {
+    let sandbox = Sandbox::new();
+    sandbox.write("open.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nf 1 3 2\nf 1 2 4\nf 2 3 4\n");
+    sandbox.fails("make open.obj -o out", 3, &["open.obj", "edge"]);
+    assert!(!sandbox.path("out").exists());
+}

@@ -1,0 +1,171 @@
+//! Polycubes of plain shapes are valid, embedded and of the topology of the shape, which is cut finer but not changed.
+
+mod common;
+
+use common::{cases, coarse, data, dense};
+use polycube::generate::{Example, example, random_polycube};
+use polycube::make::{Made, MakeOptions, make};
+use polycube::mesh::{CellKind, Cells, Mesh, Point, Simplices, read, write_bytes};
+use polycube::structure::{Polycube, Tolerance};
+use polycube::{Context, ErrorKind, Place};
+use std::path::PathBuf;
+
+fn made(shape: &Mesh, what: &str) -> Made {
+    make(shape, &MakeOptions::default(), &Context::default()).unwrap_or_else(|e| panic!("{what}: {e}"))
+}
+
+fn triangles(mesh: &Mesh) -> Vec<[u32; 3]> {
+    match mesh.cells.simplices() {
+        Simplices::Triangles(t) => t.into_owned(),
+        Simplices::Tetrahedra(_) => panic!("this is a surface"),
+    }
+}
+
+/// Vertices less edges plus faces of a closed surface whose vertices are all used.
+fn euler(mesh: &Mesh) -> i64 {
+    let count = triangles(mesh).len() as i64;
+    mesh.points.len() as i64 - 3 * count / 2 + count
+}
+
+fn area(mesh: &Mesh) -> f64 {
+    let doubled = |t: [u32; 3]| {
+        let [a, b, c] = t.map(|v| mesh.points[v as usize]);
+        (b - a).cross(&(c - a)).norm()
+    };
+    triangles(mesh).into_iter().map(doubled).sum::<f64>() / 2.0
+}
+
+/// How many triangles do not look along their label.
+fn turned_over(made: &Made) -> usize {
+    let looks_back = |(t, &label): (&[u32; 3], &i8)| {
+        let [a, b, c] = t.map(|v| made.polycube.points[v as usize]);
+        let along = (b - a).cross(&(c - a))[label as usize / 2];
+        if label % 2 == 0 { along <= 0.0 } else { along >= 0.0 }
+    };
+    triangles(&made.polycube).iter().zip(&made.labels).filter(|&x| looks_back(x)).count()
+}
+
+fn assert_good(shape: &Mesh, made: &Made, what: &str) {
+    assert_eq!(made.shape.cells, made.polycube.cells, "{what}");
+    assert_eq!(made.shape.points[..shape.points.len()], shape.points[..], "{what}: vertices keep their numbers");
+    assert_eq!(euler(&made.shape), euler(shape), "{what}: the topology is kept");
+    assert!((area(&made.shape) / area(shape) - 1.0).abs() < 1e-6, "{what}: the surface is that of the shape");
+    let polycube = Polycube::new(&made.polycube, Some(&made.labels), &Tolerance { merge: 0.0, ..Tolerance::default() });
+    let polycube = polycube.unwrap_or_else(|v| panic!("{what}: {}", v[0]));
+    let levels: Vec<i64> = polycube.placement.iter().map(|x| x.round() as i64).collect();
+    assert!(polycube.placement.iter().zip(&levels).all(|(x, &l)| *x == l as f64), "{what}: levels are integers");
+    assert_eq!(dense::check(&polycube.structure, &levels), Ok(()), "{what}");
+    assert_eq!(made.report.corners, polycube.structure.corners.len(), "{what}");
+    assert_eq!(turned_over(made), made.report.folded.len(), "{what}: what is folded is told");
+}
+
+/// The same surface, bent and turned.
+fn bent(mesh: &Mesh) -> Mesh {
+    let low = mesh.points.iter().fold(mesh.points[0], |m, p| m.inf(p));
+    let high = mesh.points.iter().fold(mesh.points[0], |m, p| m.sup(p));
+    let size = (high - low).norm();
+    let bend = |p: &Point| {
+        let q = (p - low) / size;
+        Point::new(p.x + 0.1 * size * q.y * q.y, p.y + 0.08 * size * q.z * q.x, p.z + 0.1 * size * q.x * q.x)
+    };
+    Mesh { points: mesh.points.iter().map(bend).collect(), cells: mesh.cells.clone() }
+}
+
+#[test]
+fn bent_random_polycubes_get_valid_polycubes_or_a_reason() {
+    let mut valid = 0;
+    let count = cases(24);
+    for seed in 0..count {
+        let voxels = random_polycube(seed, 1 + seed as usize % 6, 4 + seed as i64 % 5).unwrap();
+        let shape = bent(&coarse(&voxels, CellKind::Triangles));
+        let what = format!("seed {seed}");
+        match make(&shape, &MakeOptions::default(), &Context::default()) {
+            Ok(made) => {
+                assert_good(&shape, &made, &what);
+                valid += 1;
+            }
+            Err(e) => {
+                assert!(e.kind == ErrorKind::Polycube && e.place.is_some() && !e.remedy.is_empty(), "{what}: {e}")
+            }
+        }
+    }
+    println!("{valid} of {count} valid");
+    assert!(4 * valid >= 3 * count, "{valid} of {count}");
+}
+
+#[test]
+fn examples_get_polycubes_whose_map_is_one_to_one() {
+    for kind in Example::ALL {
+        let (_, shape) = example(kind, 1, CellKind::Quads).unwrap();
+        let found = made(&shape, &kind.to_string());
+        assert_good(&shape, &found, &kind.to_string());
+        assert!(found.report.folded.is_empty(), "{kind}: {} folded", found.report.folded.len());
+    }
+}
+
+#[test]
+fn the_same_shape_gives_the_same_bytes_for_any_number_of_threads() {
+    let (_, shape) = example(Example::Ring, 1, CellKind::Triangles).unwrap();
+    let bytes = |threads: usize| {
+        let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().unwrap();
+        let found = pool.install(|| made(&shape, "ring"));
+        [&found.shape, &found.polycube].map(|m| write_bytes(polycube::mesh::Format::Obj, m, &[]).unwrap())
+    };
+    assert!(bytes(1) == bytes(3));
+}
+
+#[test]
+fn corners_are_taken_away_until_few_are_left() {
+    let (_, shape) = example(Example::SteppedL, 1, CellKind::Triangles).unwrap();
+    let options = MakeOptions { corners: Some(8), ..MakeOptions::default() };
+    let few = make(&shape, &options, &Context::default()).unwrap();
+    assert_good(&shape, &few, "stepped-l");
+    assert!(few.report.corners < made(&shape, "stepped-l").report.corners);
+}
+
+#[test]
+fn what_is_no_closed_surface_is_refused_with_its_place() {
+    let (_, shape) = example(Example::SteppedL, 1, CellKind::Triangles).unwrap();
+    let refused = |mesh: &Mesh| make(mesh, &MakeOptions::default(), &Context::default()).unwrap_err();
+    let all = triangles(&shape);
+    let open = Mesh { points: shape.points.clone(), cells: Cells::Triangles(all[1..].to_vec()) };
+    assert!(matches!(refused(&open).place, Some(Place::Edge(..))));
+    let inward = all.iter().map(|t| [t[0], t[2], t[1]]).collect();
+    let inward = Mesh { points: shape.points.clone(), cells: Cells::Triangles(inward) };
+    assert_eq!(refused(&inward).kind, ErrorKind::Mesh);
+    let mut nan = shape.clone();
+    nan.points[3].x = f64::NAN;
+    assert_eq!(refused(&nan).place, Some(Place::Vertex(3)));
+    let (_, volume) = example(Example::SteppedL, 1, CellKind::Tetrahedra).unwrap();
+    assert_eq!(refused(&volume).kind, ErrorKind::Unsupported);
+    let options = MakeOptions { detail: f64::NAN, corners: None };
+    assert_eq!(make(&shape, &options, &Context::default()).unwrap_err().option, Some("detail"));
+}
+
+/// The folder of plain shapes, beside that of the real polycubes.
+fn shapes() -> Option<PathBuf> {
+    let own = std::env::var_os("POLYCUBE_SHAPES").map(PathBuf::from);
+    own.or_else(|| Some(data::folder()?.parent()?.join("shapes"))).filter(|folder| folder.is_dir())
+}
+
+/// Corners are those that a labeler of 2025 needs, which the README of the shapes lists.
+#[test]
+fn real_shapes_get_as_few_corners_as_from_others() {
+    let Some(folder) = shapes() else { return println!("skipped: no shapes") };
+    let cases = [
+        ("hexme_s09o_bridge", 16),
+        ("mambo_B0", 16),
+        ("cmu_rod", 32),
+        ("cubespikes", 56),
+        ("hexme_n05o_box_min_pcyls", 64),
+        ("bob", 36),
+        ("bunny_ihm", 42),
+        ("rockerarm_ihm", 62),
+    ];
+    for (name, corners) in cases {
+        let shape = read(&folder.join(format!("{name}.obj"))).unwrap();
+        let found = made(&shape, name);
+        assert_good(&shape, &found, name);
+        assert!(found.report.corners <= corners, "{name}: {} corners", found.report.corners);
+    }
+}
