@@ -16,7 +16,7 @@ use crate::error::{Error, ErrorKind, Result};
 use crate::mesh::{Cells, Face, Mesh};
 use crate::structure::Surface;
 use embedding::Embedded;
-use loops::{LoopOptions, LoopSet};
+use loops::LoopOptions;
 use std::time::Instant;
 
 /// How a polycube is made.
@@ -105,13 +105,13 @@ pub fn make(shape: &Mesh, options: &MakeOptions, context: &Context) -> Result<Ma
     }
     seconds.total = clock.elapsed().as_secs_f64();
     seconds.embedding = seconds.total - seconds.loops - seconds.charts;
-    Ok(finish(shape, &set, embedded, seconds))
+    Ok(finish(shape, embedded, seconds))
 }
 
-fn finish(shape: &Mesh, set: &LoopSet, embedded: Embedded, seconds: MakeSeconds) -> Made {
+fn finish(shape: &Mesh, embedded: Embedded, seconds: MakeSeconds) -> Made {
     let [polycube, refined] = embedded.refined.meshes();
     let labels = embedded.refined.labels();
-    let report = MakeReport::new(shape, set, &embedded, [&polycube, &refined], seconds);
+    let report = MakeReport::new(shape, &embedded, [&polycube, &refined], seconds);
     Made { shape: refined, polycube, labels, report }
 }
 

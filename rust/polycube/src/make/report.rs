@@ -1,9 +1,9 @@
 //! What was made, and how good it is.
 
 use super::embedding::Embedded;
-use super::loops::LoopSet;
 use crate::measure::{Distortion, distortion};
-use crate::mesh::Mesh;
+use crate::mesh::{Cells, Face, Mesh};
+use crate::structure::area_vector;
 
 /// Wall-clock seconds of the stages.
 #[derive(Clone, Copy, Debug, Default, PartialEq, serde::Serialize)]
@@ -42,24 +42,31 @@ pub struct MakeReport {
 }
 
 impl MakeReport {
-    pub(super) fn new(
-        input: &Mesh,
-        loops: &LoopSet,
-        embedded: &Embedded,
-        [polycube, shape]: [&Mesh; 2],
-        seconds: MakeSeconds,
-    ) -> Self {
+    pub(super) fn new(input: &Mesh, embedded: &Embedded, [polycube, shape]: [&Mesh; 2], seconds: MakeSeconds) -> Self {
         let structure = &embedded.polycube.structure;
         Self {
             corners: structure.corners.len(),
             edges: structure.edges.len(),
             facets: structure.facets.len(),
             genus: structure.genus(),
-            misfit: loops.misfit,
+            misfit: misfit(shape, &embedded.refined.labels()),
             distortion: distortion(shape, polycube).ok().filter(|_| embedded.folded.is_empty()),
             added: shape.points.len() - input.points.len(),
             folded: embedded.folded.clone(),
             seconds,
         }
     }
+}
+
+/// The mean over triangles, by their areas, of one minus the cosine between normal and label.
+fn misfit(shape: &Mesh, labels: &[i8]) -> f64 {
+    let Cells::Triangles(triangles) = &shape.cells else { return 0.0 };
+    let (mut along, mut total) = (0.0, 0.0);
+    for (&t, &label) in triangles.iter().zip(labels) {
+        let normal = area_vector(&shape.points, &Face::Triangle(t));
+        let component = normal[label as usize / 2];
+        along += if label % 2 == 0 { component } else { -component };
+        total += normal.norm();
+    }
+    1.0 - along / f64::max(total, f64::MIN_POSITIVE)
 }

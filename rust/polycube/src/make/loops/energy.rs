@@ -16,6 +16,17 @@ pub(super) fn along(n: &Vector3<f64>, label: usize) -> f64 {
     if label.is_multiple_of(2) { x } else { -x }
 }
 
+/// A part of the surface that looks away from its face, with a cosine below this, is squashed on it.
+const SQUASHED: f64 = 0.2;
+/// What that costs beside the misfit.
+const SQUASHING: f64 = 2.0;
+
+/// One minus the cosine between normal and direction, for each unit of area, and more where the area would be squashed: the
+/// lattice is too coarse there to follow the shape.
+fn cost(area: f64, along: f64) -> f64 {
+    area - along + SQUASHING * (SQUASHED * area - along).max(0.0)
+}
+
 impl Energies {
     /// All nothing.
     pub(super) fn none(arrangement: &Arrangement) -> Self {
@@ -40,7 +51,7 @@ impl Energies {
             let normal = mesh.area_vector(t);
             let area = normal.norm();
             total += area;
-            (0..6).for_each(|l| energies[q as usize][l] += area - along(&normal, l));
+            (0..6).for_each(|l| energies[q as usize][l] += cost(area, along(&normal, l)));
         }
         let share = 1.0 / f64::max(total, f64::MIN_POSITIVE);
         energies.iter_mut().flatten().for_each(|e| *e *= share);

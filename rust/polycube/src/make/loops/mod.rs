@@ -79,8 +79,6 @@ pub(crate) struct LoopSet {
     pub(crate) zone_of_crossing: Vec<u32>,
     /// The corners of the polycube.
     pub(crate) corners: usize,
-    /// Mean of one minus the cosine between the normal of the surface and the direction of its face.
-    pub(crate) misfit: f64,
 }
 
 /// How dense starts are made, best first: the first that are valid are coarsened, and the best outcome is taken.
@@ -168,5 +166,5 @@ fn try_one(
     let misfit = moves.misfit();
     let worth = LoopOptions { corners: None, ..*options }.worth_of_corner();
     let (arrangement, zone_of_crossing) = moves.finish();
-    Ok(Ok((misfit + worth * corners as f64, LoopSet { mesh, arrangement, zone_of_crossing, corners, misfit })))
+    Ok(Ok((misfit + worth * corners as f64, LoopSet { mesh, arrangement, zone_of_crossing, corners })))
 }
