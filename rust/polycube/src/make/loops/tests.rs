@@ -118,7 +118,6 @@ fn any_number_of_threads_gives_the_same_loops() {
     };
     let (one, many) = (with(1), with(4));
     assert_eq!(one.mesh.points, many.mesh.points);
-    assert_eq!(one.mesh.points, many.mesh.points);
     let alive = |set: &LoopSet| set.arrangement.loops.iter().map(|l| l.alive).collect::<Vec<_>>();
     assert_eq!(alive(&one), alive(&many));
 }
