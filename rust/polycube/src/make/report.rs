@@ -1,6 +1,7 @@
 //! What was made, and how good it is.
 
 use super::embedding::Embedded;
+use super::loops::along;
 use crate::measure::{Distortion, distortion};
 use crate::mesh::{Cells, Face, Mesh};
 use crate::structure::area_vector;
@@ -61,12 +62,11 @@ impl MakeReport {
 /// The mean over triangles, by their areas, of one minus the cosine between normal and label.
 fn misfit(shape: &Mesh, labels: &[i8]) -> f64 {
     let Cells::Triangles(triangles) = &shape.cells else { return 0.0 };
-    let (mut along, mut total) = (0.0, 0.0);
+    let (mut looking, mut total) = (0.0, 0.0);
     for (&t, &label) in triangles.iter().zip(labels) {
         let normal = area_vector(&shape.points, &Face::Triangle(t));
-        let component = normal[label as usize / 2];
-        along += if label % 2 == 0 { component } else { -component };
+        looking += along(&normal, label as u8);
         total += normal.norm();
     }
-    1.0 - along / f64::max(total, f64::MIN_POSITIVE)
+    1.0 - looking / f64::max(total, f64::MIN_POSITIVE)
 }

@@ -64,12 +64,6 @@ fn mean_side(points: &[Point], triangles: &[[u32; 3]]) -> f64 {
     sum / (3 * triangles.len().max(1)) as f64
 }
 
-/// How much of an area vector looks along a label.
-pub(super) fn along(area: &Vector3<f64>, label: u8) -> f64 {
-    let component = area[usize::from(label) / 2];
-    if label.is_multiple_of(2) { component } else { -component }
-}
-
 /// Charts while they are worked on: `patch` of a triangle is its chart.
 struct Traced {
     mesh: Triangulation,

@@ -1,7 +1,8 @@
 //! Moves the borders of charts to where the surface suits them, one triangle at a time, keeping how the charts meet.
 
+use super::Traced;
 use super::triangulation::Triangulation;
-use super::{Traced, along};
+use crate::make::loops::along;
 use std::collections::BTreeSet;
 
 /// Most triangles that change chart, as a multiple of all.

@@ -1,10 +1,11 @@
 //! The edges of the polycube as paths on the shape: from the middle of each region to those beside it.
 
+use super::Traced;
 use super::shortest::Shortest;
 use super::triangulation::{NONE, Triangle, Triangulation};
-use super::{Traced, along};
 use crate::context::Context;
 use crate::make::loops::LoopSet;
+use crate::make::loops::along;
 use crate::make::loops::arrangement::{Arc, Arrangement, loop_vertices};
 use crate::make::loops::cut_mesh::CutMesh;
 use nalgebra::Vector3;

@@ -11,8 +11,8 @@ use nalgebra::Vector3;
 pub(super) struct Energies(pub(super) Vec<[f64; 6]>);
 
 /// The part of a vector along the direction of a label.
-pub(super) fn along(n: &Vector3<f64>, label: usize) -> f64 {
-    let x = n[label / 2];
+pub(in crate::make) fn along(n: &Vector3<f64>, label: u8) -> f64 {
+    let x = n[usize::from(label) / 2];
     if label.is_multiple_of(2) { x } else { -x }
 }
 
@@ -51,7 +51,7 @@ impl Energies {
             let normal = mesh.area_vector(t);
             let area = normal.norm();
             total += area;
-            (0..6).for_each(|l| energies[q as usize][l] += cost(area, along(&normal, l)));
+            (0..6).for_each(|l| energies[q as usize][usize::from(l)] += cost(area, along(&normal, l)));
         }
         let share = 1.0 / f64::max(total, f64::MIN_POSITIVE);
         energies.iter_mut().flatten().for_each(|e| *e *= share);

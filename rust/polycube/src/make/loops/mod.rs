@@ -38,6 +38,7 @@ use crate::mesh::Point;
 use arrangement::Arrangement;
 use cut_mesh::CutMesh;
 use energy::Energies;
+pub(super) use energy::along;
 use field::Field;
 use moves::Moves;
 use rayon::prelude::*;
