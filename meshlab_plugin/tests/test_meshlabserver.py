@@ -242,7 +242,7 @@ def test_wrong_parameters_are_errors(server, pair, tmp_path):
         (simplify(displacement=-1), "displacement"),
         (simplify(angle=60), "45"),
         (quads(simplicity=-1), "simplicity"),
-        (quads(edge=0), "positive"),
+        (quads(edge=0), "above 0"),
         (hexes(tmp_path / "hexes.obj"), "Choose a name"),
         (hexes(tmp_path / "none" / "hexes.vtu"), "Choose another"),
         (hexes(tmp_path / "hexes.vtu", count=0), "1 or more"),
