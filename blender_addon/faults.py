@@ -16,8 +16,17 @@ class Refused(Exception):
         super().__init__(f"{message} ({remedy})" if remedy else message)
 
 
+class Broken(Refused):
+    """A mesh that is none, and where."""
+
+    def __init__(self, error, source):
+        super().__init__(str(error))
+        self.source, self.element, self.elements = source, error.element, error.elements
+
+
 def report(operator, context, error, source=None):
     """Reports an error and shows its place. Gives what the operator returns."""
+    source = getattr(error, "source", source)
     if isinstance(error, polycube.Cancelled):
         operator.report({'WARNING'}, "Cancelled; nothing was changed")
         return {'CANCELLED'}

@@ -126,12 +126,12 @@ def _source(holder, key, cube, shape, body, editable):
     for array in (points, shape_points, cells):
         digest.update(b"" if array is None else np.ascontiguousarray(array).tobytes())
     digest.update(repr((holder.name, key, shape and shape.name)).encode())
-    return Source(
+    found = Source(
         holder=holder.name,
         shape_name=shape.name if shape else None,
         key=key,
-        polycube=_mesh(points, cells),
-        shape=None if body is None else _mesh(shape_points, cells),
+        polycube=None,
+        shape=None,
         polygon_of_cell=polygon_of_cell,
         polygon_count=len(cube.sizes),
         size=size,
@@ -139,6 +139,12 @@ def _source(holder, key, cube, shape, body, editable):
         editable=editable,
         fingerprint=digest.digest(),
     )
+    try:
+        found.polycube = _mesh(points, cells)
+        found.shape = None if body is None else _mesh(shape_points, cells)
+    except polycube.InvalidMesh as error:
+        raise faults.Broken(error, found) from error
+    return found
 
 
 def _mesh(points, cells):

@@ -14,12 +14,12 @@ pub fn flat(points: &[Point]) -> Vec<f64> {
 
 impl From<&Mesh> for MeshData {
     fn from(mesh: &Mesh) -> Self {
-        let cells = match &mesh.cells {
+        let cells = match mesh.cells() {
             Cells::Triangles(c) => c.as_flattened().to_vec(),
             Cells::Quads(c) | Cells::Tetrahedra(c) => c.as_flattened().to_vec(),
             Cells::Hexahedra(c) => c.as_flattened().to_vec(),
         };
-        Self { points: flat(&mesh.points), kind: mesh.cells.kind() as u8, cells }
+        Self { points: flat(mesh.points()), kind: mesh.cells().kind() as u8, cells }
     }
 }
 
@@ -86,8 +86,8 @@ pub fn write_labels(path: &str, labels: &[i8]) -> Result<()> {
 pub fn boundary(view: &MeshView) -> Result<MeshData> {
     guard(|| {
         let mesh = mesh(view)?;
-        let faces = mesh.cells.boundary()?;
-        let kind = match mesh.cells.kind() {
+        let faces = mesh.cells().boundary()?;
+        let kind = match mesh.cells().kind() {
             CellKind::Triangles | CellKind::Tetrahedra => CellKind::Triangles,
             CellKind::Quads | CellKind::Hexahedra => CellKind::Quads,
         };

@@ -1,20 +1,23 @@
 //! What is wrong with a polycube, or the structure of one that is right.
 
-use crate::failure::{Result, guard, numbers};
+use crate::failure::{Failure, Result, guard, numbers};
 use crate::ffi::*;
 use crate::input::Owned;
 use crate::options::tolerance;
 use crate::run::run;
-use polycube::Place;
 use polycube::layout::{Pieces, count};
 use polycube::mesh::Mesh;
 use polycube::simplify::{Input, read_structure};
 use polycube::structure::{Arrangement, Corner, Edge, Polycube};
 use polycube::validate::{Finding, Subject, validate};
+use polycube::{Error, Place};
 
 /// Lists the violations of `polycube validate`, or describes the structure.
 pub fn check(input: &InputView, data: &ToleranceData, observer: &Observer) -> Result<CheckedData> {
-    let (owned, tolerance) = guard(|| Ok((Owned::new(input)?, tolerance(data))))?;
+    let (owned, tolerance) = match guard(|| Ok((Owned::new(input)?, tolerance(data)))) {
+        Ok(both) => both,
+        Err(Failure(error)) => return not_finite(error, input),
+    };
     run(observer, |context| {
         context.stage("structure", 0.0, 1.0).tick(0.0)?;
         let input = owned.input();
@@ -29,21 +32,40 @@ pub fn check(input: &InputView, data: &ToleranceData, observer: &Observer) -> Re
     })
 }
 
+/// What is found of a mesh with a coordinate that is no number; other errors stay errors.
+fn not_finite(error: Error, input: &InputView) -> Result<CheckedData> {
+    if !matches!(error.place, Some(Place::Vertex(_))) {
+        return Err(error.into());
+    }
+    let of_shape = crate::input::mesh(&input.polycube).is_ok();
+    let finding = Finding::of(error, if of_shape { Subject::Shape } else { Subject::Polycube })?;
+    let violations = vec![violation(finding, Vec::new())];
+    Ok(CheckedData { violations, structure: StructureData::default() })
+}
+
 fn violations(findings: Vec<Finding>, input: &Input) -> Vec<ViolationData> {
     if findings.is_empty() {
         return Vec::new();
     }
     let around = Around::new(input.polycube);
-    let violation = |finding: Finding| ViolationData {
+    let faces = |finding: &Finding| finding.element.map_or_else(Vec::new, |place| around.faces(place));
+    let with_faces = |finding: Finding| {
+        let faces = faces(&finding);
+        violation(finding, faces)
+    };
+    findings.into_iter().map(with_faces).collect()
+}
+
+fn violation(finding: Finding, faces: Vec<u32>) -> ViolationData {
+    ViolationData {
         rule: finding.rule.into(),
         in_shape: finding.mesh == Subject::Shape,
         message: finding.message,
         remedy: finding.remedy,
         place: place(finding.element),
         at: finding.at.map_or_else(Vec::new, Vec::from),
-        faces: finding.element.map_or_else(Vec::new, |place| around.faces(place)),
-    };
-    findings.into_iter().map(violation).collect()
+        faces,
+    }
 }
 
 fn place(place: Option<Place>) -> PlaceData {
@@ -56,8 +78,8 @@ struct Around(Vec<Vec<u32>>);
 
 impl Around {
     fn new(mesh: &Mesh) -> Self {
-        let mut around = vec![Vec::new(); mesh.points.len()];
-        for (i, face) in (0..).zip(mesh.cells.boundary().unwrap_or_default()) {
+        let mut around = vec![Vec::new(); mesh.points().len()];
+        for (i, face) in (0..).zip(mesh.cells().boundary().unwrap_or_default()) {
             for &v in face.vertices() {
                 // A face may name a vertex twice.
                 if let Some(faces) = around.get_mut(v as usize).filter(|faces| faces.last() != Some(&i)) {
@@ -82,7 +104,7 @@ impl Around {
 
 fn structure(polycube: &Polycube, mesh: &Mesh) -> StructureData {
     let Polycube { structure, placement, chains, deviation, .. } = polycube;
-    let Pieces { patch_of_face, block_of_face } = Pieces::of_faces(polycube, &mesh.points, placement);
+    let Pieces { patch_of_face, block_of_face } = Pieces::of_faces(polycube, mesh.points(), placement);
     let levels = structure.levels.iter().zip(placement);
     let facet = |f: &polycube::structure::Facet| FacetData {
         label: f.label.index() as i8,
@@ -121,8 +143,8 @@ mod tests {
 
     #[test]
     fn the_faces_around_vertices_and_edges_are_found() {
-        let points = vec![Point::origin(); 6];
-        let mesh = Mesh { points, cells: Cells::Quads(vec![[0, 1, 2, 3], [1, 4, 5, 2], [0, 0, 3, 9]]) };
+        let cells = Cells::Quads(vec![[0, 1, 2, 3], [1, 4, 5, 2], [0, 0, 3, 5]]);
+        let mesh = Mesh::new(vec![Point::origin(); 6], cells).unwrap();
         let around = Around::new(&mesh);
         let faces = |place| around.faces(place);
         assert_eq!(faces(Place::Vertex(0)), [0, 2]);

@@ -3,7 +3,7 @@
 use crate::ffi::{InputView, MeshView};
 use polycube::mesh::{CellKind, Cells, Mesh, Point};
 use polycube::simplify::Input;
-use polycube::{Error, ErrorKind, Place, Result};
+use polycube::{Error, ErrorKind, Result};
 
 /// Meshes and labels of a call.
 pub struct Owned {
@@ -33,7 +33,7 @@ impl Owned {
 /// The mesh in the buffers.
 ///
 /// # Errors
-/// [`ErrorKind::Mesh`] for numbers that do not come out even or name vertices that are not there.
+/// [`ErrorKind::Mesh`] for numbers that do not come out even, are not finite or name vertices that are not there.
 pub fn mesh(view: &MeshView) -> Result<Mesh> {
     let (points, rest) = view.points.as_chunks::<3>();
     if !rest.is_empty() {
@@ -46,8 +46,7 @@ pub fn mesh(view: &MeshView) -> Result<Mesh> {
         CellKind::Tetrahedra => Cells::Tetrahedra(chunks(view.cells)?),
         CellKind::Hexahedra => Cells::Hexahedra(chunks(view.cells)?),
     };
-    check_indices(&cells, points.len())?;
-    Ok(Mesh { points, cells })
+    Mesh::new(points, cells)
 }
 
 /// The kind numbered `kind`.
@@ -70,12 +69,4 @@ fn chunks<const N: usize>(cells: &[u32]) -> Result<Vec<[u32; N]>> {
 
 fn uneven(message: String) -> Error {
     Error::new(ErrorKind::Mesh, message).remedy("give whole vertices and cells")
-}
-
-fn check_indices(cells: &Cells, points: usize) -> Result<()> {
-    let bad = (0..cells.len()).find(|&i| cells.cell(i).iter().any(|&v| v as usize >= points));
-    let Some(cell) = bad else { return Ok(()) };
-    Err(Error::new(ErrorKind::Mesh, format!("the cell names a vertex that is not among the {points} given"))
-        .at(Place::Cell(u32::try_from(cell).unwrap_or(u32::MAX)))
-        .remedy("count vertices from 0, and give all of them"))
 }

@@ -31,7 +31,7 @@ impl Simplified {
         guard(|| {
             let core::Simplified { input, polycube, levels, report, .. } = &self.0;
             let placement = placement_of(levels);
-            let pieces = polycube.as_ref().map(|mesh| Pieces::of_faces(input, &mesh.points, &placement));
+            let pieces = polycube.as_ref().map(|mesh| Pieces::of_faces(input, mesh.points(), &placement));
             let Pieces { patch_of_face, block_of_face } = pieces.unwrap_or_default();
             Ok(SimplifiedData {
                 report: report.into(),

@@ -19,7 +19,8 @@ use std::sync::Arc;
 ///     kind: "triangles", "quads", "tetrahedra" or "hexahedra". Needed for k = 4 only.
 ///
 /// Raises:
-///     InvalidMesh: the arrays do not have these shapes, or a cell names a vertex that is not there.
+///     InvalidMesh: the arrays do not have these shapes, a coordinate is not finite, or a cell names a vertex that is
+///         not there.
 ///     TypeError: the arrays do not hold numbers.
 ///
 /// >>> import polycube
@@ -45,8 +46,8 @@ impl PyMesh {
         let (cells, corners) = arrays::whole("cells").read::<i64>(cells)?;
         let build = || {
             let points = to_points(&points, &shape)?;
-            let cells = to_cells(&cells, &corners, kind, points.len())?;
-            Ok(mesh::Mesh { points, cells })
+            let cells = to_cells(&cells, &corners, kind)?;
+            mesh::Mesh::new(points, cells)
         };
         build().map(Self::from).map_err(|e| errors::raise(py, &e, None))
     }
@@ -54,13 +55,13 @@ impl PyMesh {
     /// Vertex positions: (n, 3) float64, read-only, not a copy.
     #[getter]
     pub fn points<'py>(slf: &Bound<'py, Self>) -> PyResult<Bound<'py, PyAny>> {
-        matrix(slf, 3, |m| flat(&m.0.points))
+        matrix(slf, 3, |m| flat(m.0.points()))
     }
 
     /// Vertices of each cell: (m, k) uint32, read-only, not a copy.
     #[getter]
     pub fn cells<'py>(slf: &Bound<'py, Self>) -> PyResult<Bound<'py, PyAny>> {
-        matrix(slf, width(&slf.get().0.cells), |m| match &m.0.cells {
+        matrix(slf, width(slf.get().0.cells()), |m| match m.0.cells() {
             Cells::Triangles(c) => c.as_flattened(),
             Cells::Quads(c) | Cells::Tetrahedra(c) => c.as_flattened(),
             Cells::Hexahedra(c) => c.as_flattened(),
@@ -70,13 +71,13 @@ impl PyMesh {
     /// "triangles", "quads", "tetrahedra" or "hexahedra".
     #[getter]
     fn kind(&self) -> &'static str {
-        kind_name(self.0.cells.kind())
+        kind_name(self.0.cells().kind())
     }
 
     /// Whether the cells fill a volume.
     #[getter]
     fn is_volume(&self) -> bool {
-        self.0.cells.is_volume()
+        self.0.cells().is_volume()
     }
 
     /// The boundary faces, outward: (f, 3 or 4) uint32. Labels, facets and locks are numbered like them. The boundary
@@ -85,9 +86,9 @@ impl PyMesh {
     /// Raises:
     ///     InvalidMesh: more than two cells share a face.
     fn boundary<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
-        let faces = self.0.cells.boundary().map_err(|e| errors::about(py, &e, Some(&self.0)))?;
+        let faces = self.0.cells().boundary().map_err(|e| errors::about(py, &e, Some(&self.0)))?;
         let flat: Vec<u32> = faces.iter().flat_map(|f| f.vertices()).copied().collect();
-        let columns = if matches!(self.0.cells.kind(), CellKind::Triangles | CellKind::Tetrahedra) { 3 } else { 4 };
+        let columns = if matches!(self.0.cells().kind(), CellKind::Triangles | CellKind::Tetrahedra) { 3 } else { 4 };
         numpy::PyArray1::from_vec(py, flat).call_method1("reshape", (-1, columns))
     }
 
@@ -111,7 +112,7 @@ impl PyMesh {
     }
 
     fn __repr__(&self) -> String {
-        format!("Mesh({} points, {} {})", self.0.points.len(), self.0.cells.len(), self.kind())
+        format!("Mesh({} points, {} {})", self.0.points().len(), self.0.cells().len(), self.kind())
     }
 }
 
@@ -141,13 +142,13 @@ fn to_points(numbers: &[f64], shape: &[usize]) -> polycube::Result<Vec<Point>> {
     Ok(numbers.as_chunks().0.iter().map(|&p: &[f64; 3]| Point::from(p)).collect())
 }
 
-fn to_cells(numbers: &[i64], shape: &[usize], kind: Option<&str>, points: usize) -> polycube::Result<Cells> {
+fn to_cells(numbers: &[i64], shape: &[usize], kind: Option<&str>) -> polycube::Result<Cells> {
     let kind = cell_kind(shape, kind)?;
     Ok(match kind {
-        CellKind::Triangles => Cells::Triangles(rows(numbers, points)?),
-        CellKind::Quads => Cells::Quads(rows(numbers, points)?),
-        CellKind::Tetrahedra => Cells::Tetrahedra(rows(numbers, points)?),
-        CellKind::Hexahedra => Cells::Hexahedra(rows(numbers, points)?),
+        CellKind::Triangles => Cells::Triangles(rows(numbers)?),
+        CellKind::Quads => Cells::Quads(rows(numbers)?),
+        CellKind::Tetrahedra => Cells::Tetrahedra(rows(numbers)?),
+        CellKind::Hexahedra => Cells::Hexahedra(rows(numbers)?),
     })
 }
 
@@ -177,10 +178,9 @@ fn columns_of(kind: CellKind) -> usize {
     }
 }
 
-fn rows<const K: usize>(numbers: &[i64], points: usize) -> polycube::Result<Vec<[u32; K]>> {
-    let index = |v: &i64| u32::try_from(*v).ok().filter(|&v| (v as usize) < points);
-    if let Some(bad) = numbers.iter().position(|v| index(v).is_none()) {
-        let message = format!("the cell names vertex {} of {points}", numbers[bad]);
+fn rows<const K: usize>(numbers: &[i64]) -> polycube::Result<Vec<[u32; K]>> {
+    if let Some(bad) = numbers.iter().position(|v| u32::try_from(*v).is_err()) {
+        let message = format!("the cell names vertex {}", numbers[bad]);
         let cell = Place::Cell((bad / K) as u32);
         return Err(Error::new(ErrorKind::Mesh, message).at(cell).remedy("give vertices from 0 on that are there"));
     }
@@ -242,7 +242,7 @@ pub fn read_pair(py: Python<'_>, shape: PathBuf, polycube: PathBuf) -> PyResult<
 ///     Mismatch: there are not as many labels as faces.
 #[pyfunction]
 pub fn read_labels<'py>(py: Python<'py>, path: PathBuf, polycube: &PyMesh) -> PyResult<Bound<'py, PyAny>> {
-    let read = || mesh::read_labels(&path, polycube.0.cells.boundary()?.len());
+    let read = || mesh::read_labels(&path, polycube.0.cells().boundary()?.len());
     let labels = py.detach(read).map_err(|e| errors::about(py, &e, None))?;
     Ok(numpy::PyArray1::from_vec(py, labels).into_any())
 }

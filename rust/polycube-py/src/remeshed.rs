@@ -296,7 +296,7 @@ impl PyLayout {
     }
 
     fn __repr__(&self) -> String {
-        let blocks = self.0.blocks.as_ref().map(|b| format!(", {} blocks", b.0.cells.len())).unwrap_or_default();
+        let blocks = self.0.blocks.as_ref().map(|b| format!(", {} blocks", b.0.cells().len())).unwrap_or_default();
         format!("Layout({} patches{blocks})", self.0.patch_label.len())
     }
 }

@@ -92,7 +92,7 @@ impl PyStructure {
         let faces: Vec<u32> = polycube.surface.faces().iter().flat_map(|f| f.vertices()).copied().collect();
         let parts = Parts {
             counts: count(&arrangement),
-            pieces: Pieces::of_faces(&polycube, &mesh.points, &polycube.placement),
+            pieces: Pieces::of_faces(&polycube, mesh.points(), &polycube.placement),
             columns: faces.len() / polycube.surface.faces().len().max(1),
             faces,
             labels: polycube.labels().map(|l| l.index() as i8).collect(),

@@ -54,7 +54,7 @@ def test_cells_of_any_integer_type_and_layout_are_taken(dtype, stride):
         (POINTS, [[0, 1]], None, "no cells of 2 vertices"),
         (POINTS, [[0, 1, 2, 3]], None, "may be quads or tetrahedra"),
         (POINTS, [[0, 1, 2]], "hexahedra", "do not have 3 vertices"),
-        (POINTS, [[0, 1, 2], [1, 2, 4]], None, "names vertex 4 of 4"),
+        (POINTS, [[0, 1, 2], [1, 2, 4]], None, "names vertex 4.* of 4"),
         (POINTS, [[0, 1, -1]], None, "names vertex -1"),
         (POINTS, np.array([[0, 1, 2**63 + 5]], np.uint64), None, "names vertex"),
     ],

@@ -72,7 +72,7 @@ fn morphs(criterion: &mut Criterion) {
         let polycube = read(&mesh);
         let moved: Vec<f64> = polycube.placement.iter().map(|x| 1.5 * x + (x % 3.0)).collect();
         let fixed = polycube.prescribed(&moved);
-        let id = BenchmarkId::from_parameter(format!("{} tetrahedra", mesh.cells.len()));
+        let id = BenchmarkId::from_parameter(format!("{} tetrahedra", mesh.cells().len()));
         group.bench_function(id, |b| b.iter(|| morph(&mesh, &fixed, &Context::default())));
     }
     group.finish();

@@ -63,7 +63,7 @@ fn structure(mesh: &Mesh) -> Result<Polycube> {
 /// The stages between reading a mesh and morphing it.
 fn stages(mesh: &Mesh) -> Result<Value> {
     let (polycube, found) = best(|| structure(mesh))?;
-    let (clear, checked) = best(|| Ok(polycube.overlaps(&mesh.points).is_empty()))?;
+    let (clear, checked) = best(|| Ok(polycube.overlaps(mesh.points()).is_empty()))?;
     if !clear {
         return Err(Error::new(ErrorKind::Polycube, "the polycube touches or crosses itself"));
     }
@@ -101,7 +101,7 @@ fn tetrahedra(count: &str) -> Result<Value> {
     let input = Input { polycube: &mesh, shape: None, labels: None };
     let options = polycube::Options { strategy: Strategy::Paper, ..Default::default() };
     let (_, time) = best(|| simplify(&input, &options, &Context::default()))?;
-    Ok(json!({ "tetrahedra": mesh.cells.len(), "simplify": time, "peak_mb": memory() }))
+    Ok(json!({ "tetrahedra": mesh.cells().len(), "simplify": time, "peak_mb": memory() }))
 }
 
 /// Corners of a polycube, the same with a large step, random points, and all points of a grid.
@@ -134,7 +134,7 @@ fn morphed(file: &str) -> Result<Value> {
     let fixed = polycube.prescribed(&stretched(&polycube));
     let (_, time) = best(|| morph(&mesh, &fixed, &Context::default()))?;
     Ok(json!({
-        "file": file, "cells": mesh.cells.len(), "structure": found, "morph": time,
+        "file": file, "cells": mesh.cells().len(), "structure": found, "morph": time,
         "peak_before_mb": before, "peak_mb": memory(),
     }))
 }

@@ -146,8 +146,8 @@ impl Gain {
 
 /// Vertices of a closed quadrilateral mesh at which other than four cells meet.
 fn singular_vertices(quads: &Mesh) -> usize {
-    let mut valence = vec![0_u32; quads.points.len()];
-    for &v in (0..quads.cells.len()).flat_map(|i| quads.cells.cell(i)) {
+    let mut valence = vec![0_u32; quads.points().len()];
+    for &v in (0..quads.cells().len()).flat_map(|i| quads.cells().cell(i)) {
         valence[v as usize] += 1;
     }
     valence.iter().filter(|&&n| n != 0 && n != 4).count()

@@ -138,13 +138,13 @@ fn read_in_steps(input: &Input, tolerance: &Tolerance, context: &Context) -> Res
     check_compatible(input)?;
     let polycube = Polycube::new(input.polycube, input.labels, tolerance).map_err(|v| diagnose(v, input, tolerance))?;
     context.tick(0.9)?;
-    let points = &input.polycube.points;
+    let points = input.polycube.points();
     let overlaps = Overlaps::of(&polycube);
     context.tick(0.95)?;
     if let Some(first) = overlaps.first(points) {
         return Err(first_of_many(first, overlaps.len()));
     }
-    input.shape.map_or(Ok(()), |shape| check_side(&polycube, points, &shape.points))?;
+    input.shape.map_or(Ok(()), |shape| check_side(&polycube, points, shape.points()))?;
     context.tick(1.0)?;
     Ok(polycube)
 }
@@ -187,12 +187,12 @@ impl Simplified {
         check_compatible(input)?;
         let Polycube { surface, vertex_levels, .. } = &self.input;
         let polycube = input.polycube;
-        let is_own = || polycube.cells.boundary().is_ok_and(|faces| faces == surface.faces());
-        if polycube.points.len() != vertex_levels.len() || !is_own() {
+        let is_own = || polycube.cells().boundary().is_ok_and(|faces| faces == surface.faces());
+        if polycube.points().len() != vertex_levels.len() || !is_own() {
             return Err(Error::new(ErrorKind::Mismatch, "this is not the polycube that was simplified")
                 .remedy("give the meshes that the result was made from"));
         }
-        input.shape.map_or(Ok(()), |shape| check_side(&self.input, &polycube.points, &shape.points))?;
+        input.shape.map_or(Ok(()), |shape| check_side(&self.input, polycube.points(), shape.points()))?;
         Ok(())
     }
 
@@ -266,7 +266,7 @@ fn finish(
 
 /// The objective where none is given: padded blocks for a volume, patches for a surface.
 pub fn default_objective(mesh: &Mesh) -> Objective {
-    if mesh.cells.is_volume() { Objective::BlocksPadded } else { Objective::SurfacePatches }
+    if mesh.cells().is_volume() { Objective::BlocksPadded } else { Objective::SurfacePatches }
 }
 
 /// 1 for a polycube that lies on the lattice already, else one step per mean mesh edge.
@@ -275,7 +275,7 @@ fn default_scale(polycube: &Polycube, mesh: &Mesh) -> f64 {
         return 1.0;
     }
     let surface = &polycube.surface;
-    let at = |v: u32| mesh.points[v as usize];
+    let at = |v: u32| mesh.points()[v as usize];
     let lengths = surface.half_edges().map(|h| (at(surface.end(h)) - at(surface.start(h))).norm());
     let (sum, count) = lengths.fold((0.0, 0.0), |(s, n), l| (s + l, n + 1.0));
     count / sum
@@ -288,15 +288,14 @@ fn default_scale(polycube: &Polycube, mesh: &Mesh) -> f64 {
 /// [`ErrorKind::Mismatch`] for a mesh with another number of vertices, [`ErrorKind::Option`] for a placement that has
 /// not one finite number for each level or turns a polycube edge round; those of [`morph()`].
 pub fn fit(polycube: &Polycube, mesh: &Mesh, placement: &[f64], scale: f64, context: &Context) -> Result<Mesh> {
-    if mesh.points.len() != polycube.vertex_levels.len() {
+    if mesh.points().len() != polycube.vertex_levels.len() {
         return Err(Error::new(ErrorKind::Mismatch, "this is not the mesh that the polycube was read from"));
     }
     check_placement(polycube, placement)?;
-    let points: Vec<Point> = mesh.points.iter().map(|p| p * scale).collect();
-    let mut fitted = Mesh { points, cells: mesh.cells.clone() };
-    let fixed = straight_edges(polycube, &fitted.points, placement);
-    fitted.points = morph(&fitted, &fixed, context)?;
-    Ok(fitted)
+    let scaled = mesh.moved(|p| p * scale)?;
+    let fixed = straight_edges(polycube, scaled.points(), placement);
+    let fitted = morph(&scaled, &fixed, context)?;
+    scaled.with_points(fitted)
 }
 
 fn check_placement(polycube: &Polycube, placement: &[f64]) -> Result<()> {

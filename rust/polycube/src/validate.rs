@@ -1,6 +1,6 @@
 //! Everything that is wrong with a polycube and its shape, for people and programs.
 
-use crate::error::{Error, Place, Result};
+use crate::error::{Error, ErrorKind, Place, Result};
 use crate::measure::flipped;
 use crate::mesh::{Face, Mesh, Point};
 use crate::simplify::{Input, Misfit, check_compatible, check_side, remedy};
@@ -20,7 +20,7 @@ pub enum Subject {
 #[derive(Clone, Debug, PartialEq, serde::Serialize)]
 pub struct Finding {
     /// A short name of the rule broken, in `snake_case`: that of a [`Violation`], `flipped_face`, `mismatch`,
-    /// `bad_label`, `too_large` or `mirrored`.
+    /// `bad_label`, `too_large`, `mirrored`, `not_finite` or `malformed`.
     pub rule: &'static str,
     /// Which mesh is concerned.
     pub mesh: Subject,
@@ -32,6 +32,27 @@ pub struct Finding {
     pub message: String,
     /// How to mend it.
     pub remedy: String,
+}
+
+impl Finding {
+    /// What an error of reading `mesh`, or of making it, tells of it; with its middle unknown.
+    ///
+    /// # Errors
+    /// The error itself where it is not about what is in the mesh: the file cannot be opened, say.
+    pub fn of(error: Error, mesh: Subject) -> Result<Self> {
+        let rule = match (error.kind, error.place) {
+            (ErrorKind::Mesh, Some(Place::Vertex(_))) => "not_finite",
+            (ErrorKind::Mesh, Some(_)) | (ErrorKind::Parse, _) => "malformed",
+            (ErrorKind::Mesh, None) => "empty",
+            (ErrorKind::Mismatch, _) => "mismatch",
+            _ => return Err(error),
+        };
+        let remedy = match error.remedy.is_empty() {
+            true => "export the mesh again".to_owned(),
+            false => error.remedy,
+        };
+        Ok(Self { rule, mesh, element: error.place, at: None, message: error.message, remedy })
+    }
 }
 
 /// Lists every violation of the first rule of [`Violation`] that does not hold, then all elements that are turned over.
@@ -65,7 +86,7 @@ pub fn validate(input: &Input, tolerance: &Tolerance) -> Result<Vec<Finding>> {
     let misfit = check_compatible(input).err();
     let of_polycube = misfit.as_ref().is_some_and(|m| !m.in_shape);
     let (mut findings, polycube) = if of_polycube { (Vec::new(), None) } else { polycube(input, tolerance) };
-    let sides = |polycube: Polycube, shape: &Mesh| check_side(&polycube, &input.polycube.points, &shape.points).err();
+    let sides = |polycube: Polycube, shape: &Mesh| check_side(&polycube, input.polycube.points(), shape.points()).err();
     let fits = misfit.is_none();
     let mirrored = polycube.zip(input.shape).filter(|_| fits).and_then(|(polycube, shape)| sides(polycube, shape));
     // Of a mirrored volume all cells are inverted.
@@ -84,8 +105,7 @@ fn misplaced(misfit: Misfit, input: &Input) -> Finding {
     let mesh = if in_shape { Subject::Shape } else { Subject::Polycube };
     let own = if in_shape { input.shape.unwrap_or(input.polycube) } else { input.polycube };
     let Error { place: element, message, remedy, .. } = *error;
-    // A place that is not a finite number is none.
-    let at = element.and_then(|place| own.middle(place)).filter(|at| at.iter().all(|x| x.is_finite()));
+    let at = element.and_then(|place| own.middle(place));
     Finding { rule, mesh, element, at, message, remedy }
 }
 
@@ -96,7 +116,7 @@ fn polycube(input: &Input, tolerance: &Tolerance) -> (Vec<Finding>, Option<Polyc
     let (mut violations, polycube, labels) = match Polycube::new(mesh, input.labels, tolerance) {
         Ok(polycube) => {
             let labels: Vec<i8> = polycube.labels().map(|l| l.index() as i8).collect();
-            let overlaps = polycube.overlaps(&mesh.points);
+            let overlaps = polycube.overlaps(mesh.points());
             let sound = overlaps.is_empty().then_some(polycube);
             (overlaps, sound, labels)
         }
@@ -128,7 +148,7 @@ struct Middles<'a> {
 
 impl<'a> Middles<'a> {
     fn new(mesh: &'a Mesh) -> Self {
-        Self { mesh, boundary: mesh.cells.boundary().unwrap_or_default() }
+        Self { mesh, boundary: mesh.cells().boundary().unwrap_or_default() }
     }
 
     fn findings(&self, violations: impl Iterator<Item = Violation>, mesh: Subject) -> Vec<Finding> {
@@ -168,15 +188,15 @@ impl Mesh {
         match place {
             Place::Vertex(v) => mean(self, &[v]),
             Place::Edge(a, b) => mean(self, &[a, b]),
-            Place::Face(i) => mean(self, self.cells.boundary().ok()?.get(i as usize)?.vertices()),
-            Place::Cell(i) if (i as usize) < self.cells.len() => mean(self, self.cells.cell(i as usize)),
+            Place::Face(i) => mean(self, self.cells().boundary().ok()?.get(i as usize)?.vertices()),
+            Place::Cell(i) if (i as usize) < self.cells().len() => mean(self, self.cells().cell(i as usize)),
             Place::Cell(_) | Place::PolycubeEdge(_) | Place::Facet(_) | Place::Line(_) => None,
         }
     }
 }
 
 fn mean(mesh: &Mesh, vertices: &[u32]) -> Option<[f64; 3]> {
-    let points: Option<Vec<&Point>> = vertices.iter().map(|&v| mesh.points.get(v as usize)).collect();
+    let points: Option<Vec<&Point>> = vertices.iter().map(|&v| mesh.points().get(v as usize)).collect();
     let points = points?;
     Some([0, 1, 2].map(|axis| points.iter().map(|p| p[axis]).sum::<f64>() / points.len() as f64))
 }
@@ -185,13 +205,12 @@ fn mean(mesh: &Mesh, vertices: &[u32]) -> Option<[f64; 3]> {
 mod tests {
     use super::*;
     use crate::context::Context;
-    use crate::error::ErrorKind;
     use crate::generate::{Example, example};
-    use crate::mesh::CellKind;
+    use crate::mesh::{CellKind, Cells};
     use crate::simplify::{Options, simplify};
 
     #[test]
-    fn a_shape_that_does_not_fit_or_is_not_finite_is_named() {
+    fn a_shape_that_does_not_fit_is_named() {
         let (polycube, shape) = example(Example::CubeSpikes, 1, CellKind::Triangles).unwrap();
         let told = |shape: &Mesh| {
             let input = Input { polycube: &polycube, shape: Some(shape), labels: None };
@@ -200,11 +219,10 @@ mod tests {
             assert_eq!((found[0].mesh, &found[0].message), (Subject::Shape, &error.message));
             (found[0].rule, error.kind, error.place)
         };
-        let mut broken = shape.clone();
-        broken.points[7].y = f64::NAN;
-        assert_eq!(told(&broken), ("not_finite", ErrorKind::Mesh, Some(Place::Vertex(7))));
-        broken = shape;
-        broken.points.pop();
+        let Cells::Triangles(cells) = shape.cells() else { panic!("not triangles") };
+        let mut cells = cells.clone();
+        cells.pop();
+        let broken = Mesh::new(shape.points().to_vec(), Cells::Triangles(cells)).unwrap();
         assert_eq!(told(&broken), ("mismatch", ErrorKind::Mismatch, None));
     }
 }

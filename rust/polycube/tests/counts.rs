@@ -15,8 +15,8 @@ fn counts(voxels: &Voxels) -> Counts {
 
 /// On unit hexahedra when `step` is 1, on one per cell of the coarsest lattice when it is large.
 fn brute(voxels: &Voxels, step: f64) -> Counts {
-    match voxels.mesh(CellKind::Hexahedra, step).expect("a mesh").cells {
-        Cells::Hexahedra(cells) => hexes::count(&cells),
+    match voxels.mesh(CellKind::Hexahedra, step).expect("a mesh").cells() {
+        Cells::Hexahedra(cells) => hexes::count(cells),
         _ => unreachable!("hexahedra were asked for"),
     }
 }

@@ -32,7 +32,7 @@ fn assert_good(result: &Simplified, what: &str) {
     assert!(after.blocks_padded <= report.before.blocks_padded, "{what}: {:?} became {after:?}", report.before);
     let mesh = result.polycube.as_ref().unwrap_or_else(|| panic!("{what}: no mesh"));
     let placement = placement_of(&result.levels);
-    for (p, fixed) in mesh.points.iter().zip(result.input.prescribed(&placement)) {
+    for (p, fixed) in mesh.points().iter().zip(result.input.prescribed(&placement)) {
         assert!((0..3).all(|a| p[a].is_finite() && fixed[a].is_none_or(|x| x == p[a])), "{what}: {p} is not {fixed:?}");
     }
 }
@@ -100,7 +100,7 @@ fn every_symmetry_gives_a_valid_result() {
     for seed in 0..cases(12) {
         let mesh = sample(100 + seed, CellKind::Quads);
         for (i, matrix) in symmetries().iter().enumerate() {
-            checked(&transform(&mesh, matrix), &paper(), &format!("seed {seed}, symmetry {i}"));
+            checked(&transform(&mesh, matrix).unwrap(), &paper(), &format!("seed {seed}, symmetry {i}"));
         }
     }
 }
@@ -111,7 +111,7 @@ fn translation_by_whole_steps_moves_the_result() {
         let mesh = sample(seed, CellKind::Quads);
         let by = [7, -30, 101];
         let one = checked(&mesh, &paper(), "in place");
-        let moved = translate(&mesh, Vector3::from(by.map(f64::from)));
+        let moved = translate(&mesh, Vector3::from(by.map(f64::from))).unwrap();
         let other = checked(&moved, &paper(), "moved");
         let axes = one.input.structure.levels.iter().map(|l| l.axis);
         let expected: Vec<i64> = one.levels.iter().zip(axes).map(|(x, a)| x + i64::from(by[a])).collect();
@@ -235,9 +235,9 @@ proptest! {
         by in prop::array::uniform3(-1e3..1e3), size in 1e-3..1e3, steps in prop::option::of(0.05..20.0),
     ) {
         let mesh = coarse(&random_polycube(seed, boxes, extent).unwrap(), CellKind::Quads);
-        let turned = transform(&mesh, &symmetries()[symmetry]);
+        let turned = transform(&mesh, &symmetries()[symmetry]).unwrap();
         let moved = perturb(&turned, &labels(&read(&turned)), fraction, seed).unwrap();
-        let placed = scale(&translate(&moved, Vector3::from(by)), size).unwrap();
+        let placed = scale(&translate(&moved, Vector3::from(by)).unwrap(), size).unwrap();
         let options = Options { scale: steps.map(|s| s / size), ..paper() };
         checked(&placed, &options, "random");
     }

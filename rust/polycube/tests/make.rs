@@ -15,7 +15,7 @@ fn made(shape: &Mesh, what: &str) -> Made {
 }
 
 fn triangles(mesh: &Mesh) -> Vec<[u32; 3]> {
-    match mesh.cells.simplices() {
+    match mesh.cells().simplices() {
         Simplices::Triangles(t) => t.into_owned(),
         Simplices::Tetrahedra(_) => panic!("this is a surface"),
     }
@@ -24,12 +24,12 @@ fn triangles(mesh: &Mesh) -> Vec<[u32; 3]> {
 /// Vertices less edges plus faces of a closed surface whose vertices are all used.
 fn euler(mesh: &Mesh) -> i64 {
     let count = triangles(mesh).len() as i64;
-    mesh.points.len() as i64 - 3 * count / 2 + count
+    mesh.points().len() as i64 - 3 * count / 2 + count
 }
 
 fn area(mesh: &Mesh) -> f64 {
     let doubled = |t: [u32; 3]| {
-        let [a, b, c] = t.map(|v| mesh.points[v as usize]);
+        let [a, b, c] = t.map(|v| mesh.points()[v as usize]);
         (b - a).cross(&(c - a)).norm()
     };
     triangles(mesh).into_iter().map(doubled).sum::<f64>() / 2.0
@@ -38,7 +38,7 @@ fn area(mesh: &Mesh) -> f64 {
 /// How many triangles do not look along their label.
 fn turned_over(made: &Made) -> usize {
     let looks_back = |(t, &label): (&[u32; 3], &i8)| {
-        let [a, b, c] = t.map(|v| made.polycube.points[v as usize]);
+        let [a, b, c] = t.map(|v| made.polycube.points()[v as usize]);
         let along = (b - a).cross(&(c - a))[label as usize / 2];
         if label % 2 == 0 { along <= 0.0 } else { along >= 0.0 }
     };
@@ -46,8 +46,8 @@ fn turned_over(made: &Made) -> usize {
 }
 
 fn assert_good(shape: &Mesh, made: &Made, what: &str) {
-    assert_eq!(made.shape.cells, made.polycube.cells, "{what}");
-    assert_eq!(made.shape.points[..shape.points.len()], shape.points[..], "{what}: vertices keep their numbers");
+    assert_eq!(made.shape.cells(), made.polycube.cells(), "{what}");
+    assert_eq!(made.shape.points()[..shape.points().len()], shape.points()[..], "{what}: vertices keep their numbers");
     assert_eq!(euler(&made.shape), euler(shape), "{what}: the topology is kept");
     assert!((area(&made.shape) / area(shape) - 1.0).abs() < 1e-6, "{what}: the surface is that of the shape");
     let polycube = Polycube::new(&made.polycube, Some(&made.labels), &Tolerance { merge: 0.0, ..Tolerance::default() });
@@ -61,14 +61,14 @@ fn assert_good(shape: &Mesh, made: &Made, what: &str) {
 
 /// The same surface, bent and turned.
 fn bent(mesh: &Mesh) -> Mesh {
-    let low = mesh.points.iter().fold(mesh.points[0], |m, p| m.inf(p));
-    let high = mesh.points.iter().fold(mesh.points[0], |m, p| m.sup(p));
+    let low = mesh.points().iter().fold(mesh.points()[0], |m, p| m.inf(p));
+    let high = mesh.points().iter().fold(mesh.points()[0], |m, p| m.sup(p));
     let size = (high - low).norm();
     let bend = |p: &Point| {
         let q = (p - low) / size;
         Point::new(p.x + 0.1 * size * q.y * q.y, p.y + 0.08 * size * q.z * q.x, p.z + 0.1 * size * q.x * q.x)
     };
-    Mesh { points: mesh.points.iter().map(bend).collect(), cells: mesh.cells.clone() }
+    mesh.moved(bend).expect("finite points")
 }
 
 #[test]
@@ -128,14 +128,11 @@ fn what_is_no_closed_surface_is_refused_with_its_place() {
     let (_, shape) = example(Example::SteppedL, 1, CellKind::Triangles).unwrap();
     let refused = |mesh: &Mesh| make(mesh, &MakeOptions::default(), &Context::default()).unwrap_err();
     let all = triangles(&shape);
-    let open = Mesh { points: shape.points.clone(), cells: Cells::Triangles(all[1..].to_vec()) };
+    let open = Mesh::new(shape.points().to_vec(), Cells::Triangles(all[1..].to_vec())).unwrap();
     assert!(matches!(refused(&open).place, Some(Place::Edge(..))));
     let inward = all.iter().map(|t| [t[0], t[2], t[1]]).collect();
-    let inward = Mesh { points: shape.points.clone(), cells: Cells::Triangles(inward) };
+    let inward = Mesh::new(shape.points().to_vec(), Cells::Triangles(inward)).unwrap();
     assert_eq!(refused(&inward).kind, ErrorKind::Mesh);
-    let mut nan = shape.clone();
-    nan.points[3].x = f64::NAN;
-    assert_eq!(refused(&nan).place, Some(Place::Vertex(3)));
     let (_, volume) = example(Example::SteppedL, 1, CellKind::Tetrahedra).unwrap();
     assert_eq!(refused(&volume).kind, ErrorKind::Unsupported);
     let options = MakeOptions { detail: f64::NAN, corners: None };

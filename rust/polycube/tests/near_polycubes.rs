@@ -25,23 +25,35 @@ fn cube(n: i64) -> Mesh {
 }
 
 fn vertex(mesh: &Mesh, at: [f64; 3]) -> u32 {
-    mesh.points.iter().position(|p| *p == Point::from(at)).expect("a vertex lies there") as u32
+    mesh.points().iter().position(|p| *p == Point::from(at)).expect("a vertex lies there") as u32
 }
 
 /// The face whose vertices have the mean `at`.
 fn face(mesh: &Mesh, at: [f64; 3]) -> u32 {
     let middle = |i: usize| {
-        let cell = mesh.cells.cell(i);
-        cell.iter().map(|&v| mesh.points[v as usize].coords).sum::<Vector3<f64>>() / cell.len() as f64
+        let cell = mesh.cells().cell(i);
+        cell.iter().map(|&v| mesh.points()[v as usize].coords).sum::<Vector3<f64>>() / cell.len() as f64
     };
-    (0..mesh.cells.len()).position(|i| middle(i) == Vector3::from(at)).expect("a face lies there") as u32
+    (0..mesh.cells().len()).position(|i| middle(i) == Vector3::from(at)).expect("a face lies there") as u32
 }
 
-fn faces_mut(mesh: &mut Mesh) -> &mut Vec<[u32; 4]> {
-    match &mut mesh.cells {
+fn faces(mesh: &Mesh) -> &[[u32; 4]] {
+    match mesh.cells() {
         Cells::Quads(faces) => faces,
         _ => unreachable!("the mesh has quadrilaterals"),
     }
+}
+
+/// The mesh with other quadrilaterals.
+fn with_faces(mesh: &Mesh, change: impl FnOnce(&mut Vec<[u32; 4]>)) -> Mesh {
+    let mut own = faces(mesh).to_vec();
+    change(&mut own);
+    Mesh::new(mesh.points().to_vec(), Cells::Quads(own)).expect("a mesh")
+}
+
+/// The mesh with one vertex elsewhere.
+fn with_vertex(mesh: &Mesh, v: u32, change: impl FnOnce(&mut Point)) -> Mesh {
+    mesh.clone().edited(|points, _| change(&mut points[v as usize])).expect("a mesh")
 }
 
 fn violations_of(mesh: &Mesh, labels: Option<&[i8]>) -> Vec<Violation> {
@@ -50,7 +62,7 @@ fn violations_of(mesh: &Mesh, labels: Option<&[i8]>) -> Vec<Violation> {
 
 /// Violations name the edges of face `i`, in any order and direction.
 fn edges_of(mesh: &Mesh, i: u32) -> Vec<[u32; 2]> {
-    let v = mesh.cells.cell(i as usize);
+    let v = mesh.cells().cell(i as usize);
     let mut edges: Vec<[u32; 2]> = (0..v.len()).map(|k| [v[k], v[(k + 1) % v.len()]]).map(ascending).collect();
     edges.sort_unstable();
     edges
@@ -70,11 +82,10 @@ fn relabelled(mesh: &Mesh, changes: &[([f64; 3], i8)]) -> Vec<i8> {
 #[test]
 fn turned_polycubes_are_read_and_the_angle_is_told() {
     for seed in 0..common::cases(60) {
-        let mut mesh = random_polycube(seed, 5, 8).unwrap().mesh(CellKind::Quads, 1.0).unwrap();
+        let mesh = random_polycube(seed, 5, 8).unwrap().mesh(CellKind::Quads, 1.0).unwrap();
         let straight = read(&mesh);
         let turn = Rotation3::from_axis_angle(&Vector3::z_axis(), 4_f64.to_radians());
-        mesh.points.iter_mut().for_each(|p| *p = turn * *p);
-        let result = simplify(&mesh, &Options { scale: Some(1.0), ..paper() }).unwrap();
+        let result = simplify(&mesh.moved(|p| turn * p).unwrap(), &Options { scale: Some(1.0), ..paper() }).unwrap();
         assert_eq!(result.input.structure.edges.len(), straight.structure.edges.len(), "seed {seed}");
         let deviation = result.report.deviation;
         assert!((deviation.degrees - 4.0).abs() < 1e-6, "seed {seed}: {deviation:?}");
@@ -88,9 +99,8 @@ fn noisy_polycubes_have_the_structure_of_the_clean_ones() {
     let mut rng = SplitMix64::new(7);
     for seed in 0..common::cases(60) {
         let clean = random_polycube(seed, 5, 8).unwrap().mesh(CellKind::Quads, 1.0).unwrap();
-        let mut mesh = clean.clone();
         let mut noise = || 0.2 * rng.unit() - 0.1;
-        mesh.points.iter_mut().for_each(|p| *p += Vector3::from([noise(), noise(), noise()]));
+        let mesh = clean.moved(|p| p + Vector3::from([noise(), noise(), noise()])).unwrap();
         let result = simplify(&mesh, &Options { scale: Some(1.0), ..paper() }).unwrap();
         let expected = read(&clean);
         let found = &result.input;
@@ -104,10 +114,10 @@ fn noisy_polycubes_have_the_structure_of_the_clean_ones() {
 
 #[test]
 fn faces_beyond_the_angle_tolerance_are_skew() {
-    let mut mesh = cube(2);
+    let straight = cube(2);
     let turn = Rotation3::from_axis_angle(&Vector3::z_axis(), 35_f64.to_radians());
-    let sides: Vec<u32> = (0..24).filter(|&i| common::labels(&read(&mesh))[i as usize] < 4).collect();
-    mesh.points.iter_mut().for_each(|p| *p = turn * *p);
+    let sides: Vec<u32> = (0..24).filter(|&i| common::labels(&read(&straight))[i as usize] < 4).collect();
+    let mesh = straight.moved(|p| turn * p).unwrap();
     let found = violations_of(&mesh, None);
     let skew = |v: &Violation| match v {
         Violation::SkewFace { face, degrees, limit: 30.0 } if (degrees - 35.0).abs() < 1e-9 => *face,
@@ -120,7 +130,7 @@ fn faces_beyond_the_angle_tolerance_are_skew() {
 
 #[test]
 fn a_mesh_without_faces_is_empty() {
-    let mesh = Mesh { points: Vec::new(), cells: Cells::Quads(Vec::new()) };
+    let mesh = Mesh::new(Vec::new(), Cells::Quads(Vec::new())).unwrap();
     assert_eq!(violations_of(&mesh, None), [Violation::Empty]);
 }
 
@@ -129,40 +139,28 @@ fn a_face_of_three_cells_is_refused_at_the_third() {
     let points = [[0, 0, 0], [1, 0, 0], [0, 1, 0], [0, 0, 1], [0, 0, -1], [1, 1, 1]];
     let points = points.iter().map(|p| Point::from(p.map(f64::from))).collect();
     let cells = Cells::Tetrahedra(vec![[0, 1, 2, 3], [0, 2, 1, 4], [0, 1, 2, 5]]);
-    assert_eq!(violations_of(&Mesh { points, cells }, None), [Violation::CrowdedCell { cell: 2 }]);
-}
-
-#[test]
-fn coordinates_must_be_finite() {
-    for bad in [f64::NAN, f64::INFINITY] {
-        let mut mesh = cube(2);
-        mesh.points[3].y = bad;
-        assert_eq!(violations_of(&mesh, None), [Violation::NotFinite { vertex: 3 }]);
-    }
+    assert_eq!(violations_of(&Mesh::new(points, cells).unwrap(), None), [Violation::CrowdedCell { cell: 2 }]);
 }
 
 #[test]
 fn faces_must_have_vertices_of_their_own() {
-    for vertex in [faces_mut(&mut cube(1))[2][0], 8, u32::MAX] {
-        let mut mesh = cube(1);
-        faces_mut(&mut mesh)[2][3] = vertex;
-        assert_eq!(violations_of(&mesh, None), [Violation::BadFace { face: 2 }]);
-    }
+    let mesh = with_faces(&cube(1), |faces| faces[2][3] = faces[2][0]);
+    assert_eq!(violations_of(&mesh, None), [Violation::BadFace { face: 2 }]);
 }
 
 /// The middle of the top moves into a corner: the triangles along the sides there lose their area.
 #[test]
 fn flat_faces_have_no_label() {
-    let mut mesh = surface(&[([0; 3], [2; 3])], CellKind::Triangles);
+    let mesh = surface(&[([0; 3], [2; 3])], CellKind::Triangles);
     let labels = common::labels(&read(&mesh));
     let middle = vertex(&mesh, [1.0, 1.0, 2.0]);
-    mesh.points[middle as usize] = Point::new(0.0, 0.0, 2.0);
-    let p = |v: u32| mesh.points[v as usize];
+    let mesh = with_vertex(&mesh, middle, |p| *p = Point::new(0.0, 0.0, 2.0));
+    let p = |v: u32| mesh.points()[v as usize];
     let is_flat = |i: &u32| {
-        let [a, b, c] = <[u32; 3]>::try_from(mesh.cells.cell(*i as usize)).unwrap().map(p);
+        let [a, b, c] = <[u32; 3]>::try_from(mesh.cells().cell(*i as usize)).unwrap().map(p);
         (b - a).cross(&(c - a)).norm() == 0.0
     };
-    let flat: Vec<u32> = (0..mesh.cells.len() as u32).filter(is_flat).collect();
+    let flat: Vec<u32> = (0..mesh.cells().len() as u32).filter(is_flat).collect();
     assert!(!flat.is_empty());
     let expected: Vec<Violation> = flat.into_iter().map(|face| Violation::FlatFace { face }).collect();
     assert_eq!(violations_of(&mesh, None), expected);
@@ -172,8 +170,7 @@ fn flat_faces_have_no_label() {
 #[test]
 fn holes_are_open_edges() {
     let whole = cube(2);
-    let mut mesh = whole.clone();
-    faces_mut(&mut mesh).pop();
+    let mesh = with_faces(&whole, |faces| faces.truncate(faces.len() - 1));
     let open = |v: Violation| match v {
         Violation::OpenEdge { edge } => ascending(edge),
         other => panic!("{other} is no open edge"),
@@ -192,8 +189,7 @@ fn an_edge_of_four_faces_is_not_manifold() {
 
 #[test]
 fn a_turned_face_is_inconsistent_with_its_neighbours() {
-    let mut mesh = cube(2);
-    faces_mut(&mut mesh)[5].reverse();
+    let mesh = with_faces(&cube(2), |faces| faces[5].reverse());
     let turned = |v: Violation| match v {
         Violation::InconsistentOrientation { edge } => ascending(edge),
         other => panic!("{other} is about something else"),
@@ -241,7 +237,7 @@ fn one_label_everywhere_is_no_polycube() {
     let ring = [Cuboid::new([0; 3], [3, 3, 1])];
     let ring = Voxels::from_difference(&ring, &[Cuboid::new([1, 1, 0], [2, 2, 1])]).unwrap();
     let ring = ring.mesh(CellKind::Quads, 1.0).unwrap();
-    let one_label = vec![0; ring.cells.len()];
+    let one_label = vec![0; ring.cells().len()];
     assert_eq!(violations_of(&ring, Some(&one_label)), [Violation::ChartWithHandle { face: 0 }]);
     let mesh = cube(1);
     let lenient = Tolerance { distance: 10.0, ..Tolerance::default() };
@@ -251,12 +247,12 @@ fn one_label_everywhere_is_no_polycube() {
 
 #[test]
 fn a_flattened_cube_has_edges_without_length() {
-    let mut mesh = cube(1);
+    let mesh = cube(1);
     let labels = common::labels(&read(&mesh));
     let upright: Vec<[u32; 2]> = [[0.0, 0.0], [0.0, 1.0], [1.0, 0.0], [1.0, 1.0]]
         .map(|[x, y]| ascending([vertex(&mesh, [x, y, 0.0]), vertex(&mesh, [x, y, 1.0])]))
         .to_vec();
-    mesh.points.iter_mut().for_each(|p| p.z = 0.0);
+    let mesh = mesh.moved(|p| Point::new(p.x, p.y, 0.0)).unwrap();
     let flat = |v: Violation| match v {
         Violation::ZeroLengthEdge { ends } => ascending(ends),
         other => panic!("{other} is about something else"),
@@ -270,18 +266,17 @@ fn a_flattened_cube_has_edges_without_length() {
 
 #[test]
 fn an_edge_that_turns_back_is_named() {
-    let mut mesh = cube(3);
+    let mesh = cube(3);
     let [low, high] = [1.0, 2.0].map(|z| vertex(&mesh, [0.0, 0.0, z]));
-    mesh.points[low as usize].z = 1.7;
-    mesh.points[high as usize].z = 1.3;
+    let mesh = with_vertex(&with_vertex(&mesh, low, |p| p.z = 1.7), high, |p| p.z = 1.3);
     assert_eq!(violations_of(&mesh, None), [Violation::NonMonotoneEdge { edge: [low, high] }]);
 }
 
 #[test]
 fn a_vertex_far_off_its_plane_is_named_with_its_distance() {
-    let mut mesh = cube(4);
+    let mesh = cube(4);
     let pushed = vertex(&mesh, [2.0, 2.0, 4.0]);
-    mesh.points[pushed as usize].z += 0.4;
+    let mesh = with_vertex(&mesh, pushed, |p| p.z += 0.4);
     assert!(Polycube::new(&mesh, None, &Tolerance::default()).is_ok());
     let strict = Tolerance { distance: 0.01, ..Tolerance::default() };
     let found = Polycube::new(&mesh, None, &strict).map(|_| ()).unwrap_err();
@@ -294,13 +289,13 @@ fn a_vertex_far_off_its_plane_is_named_with_its_distance() {
 
 #[test]
 fn parts_that_cross_are_named_by_faces_of_both() {
-    let mut mesh = cube(2);
-    let other = polycube::generate::translate(&mesh, Vector3::from([1.0; 3]));
-    let count = mesh.points.len() as u32;
-    let moved: Vec<[u32; 4]> = faces_mut(&mut mesh.clone()).iter().map(|f| f.map(|v| v + count)).collect();
-    mesh.points.extend(other.points);
-    faces_mut(&mut mesh).extend(moved);
-    let found = read(&mesh).overlaps(&mesh.points);
+    let one = cube(2);
+    let other = polycube::generate::translate(&one, Vector3::from([1.0; 3])).unwrap();
+    let count = one.points().len() as u32;
+    let beside = faces(&other).iter().map(|f| f.map(|v| v + count));
+    let all = faces(&one).iter().copied().chain(beside).collect();
+    let mesh = Mesh::new([one.points(), other.points()].concat(), Cells::Quads(all)).unwrap();
+    let found = read(&mesh).overlaps(mesh.points());
     assert!(!found.is_empty());
     for violation in found {
         let Violation::SelfOverlap { face, other } = violation else { panic!("{violation}") };
@@ -313,24 +308,23 @@ fn parts_that_cross_are_named_by_faces_of_both() {
 
 #[test]
 fn a_surface_that_looks_inward_is_inside_out() {
-    let mut mesh = cube(2);
-    faces_mut(&mut mesh).iter_mut().for_each(|f| f.reverse());
-    assert_eq!(read(&mesh).overlaps(&mesh.points), [Violation::InsideOut { face: 0 }]);
+    let mesh = with_faces(&cube(2), |faces| faces.iter_mut().for_each(|f| f.reverse()));
+    assert_eq!(read(&mesh).overlaps(mesh.points()), [Violation::InsideOut { face: 0 }]);
 }
 
 #[test]
 fn a_face_of_three_cells_is_named_by_a_cell() {
-    let mut mesh = surface(&[([0; 3], [1; 3])], CellKind::Tetrahedra);
-    let Cells::Tetrahedra(cells) = &mut mesh.cells else { unreachable!() };
-    cells.push(cells[0]);
+    let mesh = surface(&[([0; 3], [1; 3])], CellKind::Tetrahedra);
+    let Cells::Tetrahedra(cells) = mesh.cells() else { unreachable!() };
+    let twice = Cells::Tetrahedra([&cells[..], &cells[..1]].concat());
+    let mesh = Mesh::new(mesh.points().to_vec(), twice).unwrap();
     let found = violations_of(&mesh, None);
     assert!(matches!(found[0].place(), Some(Place::Cell(_))), "{found:?}");
 }
 
 #[test]
 fn every_violation_says_what_to_do() {
-    let mut mesh = cube(2);
-    faces_mut(&mut mesh).pop();
+    let mesh = with_faces(&cube(2), |faces| faces.truncate(faces.len() - 1));
     for violation in violations_of(&mesh, None) {
         let error = Error::from(violation.clone());
         assert!(error.place == violation.place() && !error.message.is_empty() && !error.remedy.is_empty());
@@ -340,16 +334,14 @@ fn every_violation_says_what_to_do() {
 #[test]
 fn swapped_meshes_are_recognised() {
     let straight = cube(2);
-    let mut turned = straight.clone();
     let turn = Rotation3::from_axis_angle(&Vector3::z_axis(), 40_f64.to_radians());
-    turned.points.iter_mut().for_each(|p| *p = turn * *p);
+    let turned = straight.moved(|p| turn * p).unwrap();
     let remedy = |polycube, shape| {
         let input = Input { polycube, shape: Some(shape), labels: None };
         read_structure(&input, &Tolerance::default()).expect_err("a cube turned by 40 degrees is no polycube").remedy
     };
     assert!(remedy(&turned, &straight).starts_with("swap the two"));
     assert!(remedy(&turned, &turned).starts_with("this looks like a shape, not a polycube"));
-    let mut dented = straight.clone();
-    dented.points[vertex(&straight, [0.0; 3]) as usize].x += 0.9;
+    let dented = with_vertex(&straight, vertex(&straight, [0.0; 3]), |p| p.x += 0.9);
     assert!(remedy(&dented, &dented).starts_with("give labels"));
 }

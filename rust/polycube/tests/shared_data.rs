@@ -55,7 +55,7 @@ fn assert_valid(name: &str, result: &Simplified) -> Counts {
     assert!(arrangement.conflicts().is_empty() && arrangement.inside_out().is_empty(), "{name}");
     assert!(result.report.valid, "{name}");
     let mesh = result.polycube.as_ref().expect("a valid result has a mesh");
-    for (p, fixed) in mesh.points.iter().zip(result.input.prescribed(&placement)) {
+    for (p, fixed) in mesh.points().iter().zip(result.input.prescribed(&placement)) {
         let missed = (0..3).any(|a| fixed[a].is_some_and(|x| x != p[a]) || !p[a].is_finite());
         assert!(!missed, "{name}: a vertex at {p} should be at {fixed:?}");
     }
@@ -101,7 +101,7 @@ fn models_off_the_lattice_stay_valid() {
 fn morphed(mesh: &Mesh, placement: &[f64]) -> Mesh {
     let polycube = read(mesh);
     let points = morph(mesh, &polycube.prescribed(placement), &Context::default()).expect("the morph succeeds");
-    Mesh { points, cells: mesh.cells.clone() }
+    mesh.clone().with_points(points).expect("finite points")
 }
 
 #[test]

@@ -27,8 +27,8 @@ pub fn files(data: &[u8]) {
 }
 
 fn write(mesh: &Mesh) {
-    let _ = mesh.cells.boundary();
-    for format in Format::ALL.into_iter().filter(|f| f.holds(mesh.cells.kind())) {
+    let _ = mesh.cells().boundary();
+    for format in Format::ALL.into_iter().filter(|f| f.holds(mesh.cells().kind())) {
         let bytes = write_bytes(format, mesh, &[]);
         if format == Format::Stl {
             continue; // Single precision, and vertices are welded.

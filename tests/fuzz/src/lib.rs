@@ -23,9 +23,9 @@ fn judge(mesh: &Mesh, result: &Simplified) {
     let naive = report.strategy == polycube::align::Strategy::Naive;
     assert!(naive || after.blocks_padded <= report.before.blocks_padded, "{:?} became {after:?}", report.before);
     let Some(polycube) = &result.polycube else { panic!("a valid result has a mesh") };
-    assert_eq!(polycube.cells, mesh.cells);
+    assert_eq!(polycube.cells(), mesh.cells());
     let placement: Vec<f64> = result.levels.iter().map(|&x| x as f64).collect();
-    for (p, fixed) in polycube.points.iter().zip(result.input.prescribed(&placement)) {
+    for (p, fixed) in polycube.points().iter().zip(result.input.prescribed(&placement)) {
         assert!((0..3).all(|a| p[a].is_finite() && fixed[a].is_none_or(|x| x == p[a])), "{p} is not {fixed:?}");
     }
     let labels: Vec<i8> = result.input.labels().map(|l| l.index() as i8).collect();

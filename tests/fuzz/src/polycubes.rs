@@ -51,12 +51,12 @@ pub fn remeshing(data: &[u8]) {
     };
     let Simplified { report: Report { after, .. }, .. } = &result.simplified;
     let Some(after) = after else { panic!("no counts") };
-    assert_eq!(result.layout.patches.cells.len(), after.surface_patches);
+    assert_eq!(result.layout.patches.cells().len(), after.surface_patches);
     let blocks = if options.padding == 0 { after.blocks } else { after.blocks_padded };
     let Some(hexes) = &result.hexes else { return assert!(options.surface_only) };
-    let cells = result.layout.blocks.as_ref().map_or(0, |mesh| mesh.cells.len());
+    let cells = result.layout.blocks.as_ref().map_or(0, |mesh| mesh.cells().len());
     assert_eq!((result.report.hex_blocks, cells), (blocks, blocks));
-    assert!(hexes.mesh.points.iter().all(|p| p.iter().all(|x| x.is_finite())));
+    assert!(hexes.mesh.points().iter().all(|p| p.iter().all(|x| x.is_finite())));
     let bad = hexes.quality().of_cell.iter().filter(|q| q.is_nan() || **q <= 0.0).count();
     assert_eq!(result.report.inverted, bad);
 }
@@ -95,7 +95,8 @@ fn any(bytes: &mut Unstructured) -> Result<(Mesh, Options)> {
         CellKind::Tetrahedra => Cells::Tetrahedra(four()),
         CellKind::Hexahedra => Cells::Hexahedra(cells),
     };
-    Ok((Mesh { points, cells }, Options { effort: effort(), ..Options::default() }))
+    let mesh = Mesh::new(points, cells).map_err(|_| arbitrary::Error::IncorrectFormat)?;
+    Ok((mesh, Options { effort: effort(), ..Options::default() }))
 }
 
 /// A polycube that is valid by construction: boxes made manifold, moved off the lattice in some cases.

@@ -91,9 +91,9 @@ impl Found {
         let structure = &polycube.structure;
         Self {
             file,
-            cell_kind: mesh.cells.kind().to_string(),
-            cells: mesh.cells.len(),
-            vertices: mesh.points.len(),
+            cell_kind: mesh.cells().kind().to_string(),
+            cells: mesh.cells().len(),
+            vertices: mesh.points().len(),
             boundary_faces: polycube.surface.faces().len(),
             components: structure.components().into_iter().max().map_or(0, |c| c as usize + 1),
             genus: structure.genus(),

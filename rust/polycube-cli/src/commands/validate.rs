@@ -9,7 +9,6 @@ use clap::ValueHint;
 use polycube::mesh;
 use polycube::simplify::Input;
 use polycube::validate::{Finding, Subject, validate};
-use polycube::{Error, ErrorKind, Place};
 use serde::Serialize;
 use std::path::PathBuf;
 use std::process::ExitCode;
@@ -67,31 +66,15 @@ fn check(args: &Args) -> Result<Vec<Finding>> {
         Err(error) => {
             // A sound polycube leaves the shape.
             let shape = mesh::read(&args.mesh.polycube).is_ok();
-            return Ok(vec![unreadable(error, if shape { Subject::Shape } else { Subject::Polycube })?]);
+            return Ok(vec![Finding::of(error, if shape { Subject::Shape } else { Subject::Polycube })?]);
         }
     };
     let labels = match &args.mesh.labels.file {
-        Some(file) if mesh.cells.boundary().is_ok() => Some(read_labels(file, &args.mesh.polycube, &mesh)?),
+        Some(file) if mesh.cells().boundary().is_ok() => Some(read_labels(file, &args.mesh.polycube, &mesh)?),
         _ => None,
     };
     let input = Input { polycube: &mesh, shape: shape.as_ref(), labels: labels.as_deref() };
     Ok(validate(&input, &args.mesh.tolerance.get())?)
-}
-
-/// The finding that an error of reading `mesh` stands for.
-fn unreadable(error: Error, mesh: Subject) -> polycube::Result<Finding> {
-    let rule = match (error.kind, error.place) {
-        (ErrorKind::Mesh, Some(Place::Vertex(_))) => "not_finite",
-        (ErrorKind::Mesh, _) => "empty",
-        (ErrorKind::Parse, _) => "malformed",
-        (ErrorKind::Mismatch, _) => "mismatch",
-        _ => return Err(error),
-    };
-    let remedy = match error.remedy.is_empty() {
-        true => "export the mesh again".to_owned(),
-        false => error.remedy,
-    };
-    Ok(Finding { rule, mesh, element: error.place, at: None, message: error.message, remedy })
 }
 
 fn line(finding: &Finding) -> String {

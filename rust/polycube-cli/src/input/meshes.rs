@@ -48,7 +48,7 @@ pub fn read_meshes(polycube: &Path, shape: Option<&Path>) -> polycube::Result<(M
 
 /// Reads one label for each boundary face of `mesh`, which came from the file `of`.
 pub fn read_labels(file: &Path, of: &Path, mesh: &Mesh) -> Result<Vec<i8>> {
-    let faces = mesh.cells.boundary().map_err(Failure::in_file(of))?.len();
+    let faces = mesh.cells().boundary().map_err(Failure::in_file(of))?.len();
     Ok(mesh::read_labels(file, faces)?)
 }
 

@@ -1,7 +1,7 @@
 //! Exit codes, messages, closed and full outputs, completions.
 
 use super::{CellKind, Example, Sandbox, coarse};
-use polycube::mesh::{self, Format, Mesh, Point};
+use polycube::mesh::{self, Format, Point};
 use std::process::Stdio;
 
 #[test]
@@ -140,7 +140,7 @@ fn a_shape_in_the_place_of_a_polycube_is_recognised() {
     let sandbox = Sandbox::new();
     let cube = coarse(Example::SteppedL, CellKind::Triangles);
     let turned = |p: &Point| Point::new(0.8 * p.x - 0.6 * p.y, 0.6 * p.x + 0.8 * p.y, p.z);
-    let shape = Mesh { points: cube.points.iter().map(turned).collect(), cells: cube.cells.clone() };
+    let shape = cube.moved(turned).unwrap();
     sandbox.write_mesh("cube.obj", &cube);
     sandbox.write_mesh("shape.obj", &shape);
     let words =
@@ -165,7 +165,7 @@ fn what_is_no_polycube_is_3_and_names_file_element_and_remedy() {
         &["l.obj and shape.obj: the polycube has", "without reordering"],
     );
     sandbox.fails("inspect l.obj --labels labels", 3, &["2 labels", "one label per face"]);
-    mesh.points[10].x += 20.0;
+    mesh = mesh.edited(|points, _| points[10].x += 20.0).unwrap();
     sandbox.write_mesh("skew.obj", &mesh);
     for line in ["simplify skew.obj -o out", "inspect skew.obj"] {
         sandbox.fails(line, 3, &["error: skew.obj: ", "remedy: ", "more like it"]);

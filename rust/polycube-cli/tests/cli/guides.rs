@@ -97,7 +97,7 @@ fn every_point_of_the_front_is_measured_and_written() {
     for point in points {
         let name = point["file"].as_str().unwrap();
         let mesh = mesh::read(&sandbox.path(&format!("out/{name}"))).unwrap();
-        assert_eq!(mesh.cells.kind(), CellKind::Quads);
+        assert_eq!(mesh.cells().kind(), CellKind::Quads);
         // Faces that the morph turned over would be read by their normals otherwise.
         let told = sandbox.ok(&format!("inspect --json out/{name} --labels out/polycube.labels"));
         let found: Value = serde_json::from_str(&told).unwrap();

@@ -1,6 +1,7 @@
 //! `polycube inspect`.
 
 use super::{CellKind, Example, Sandbox, coarse};
+use polycube::mesh::Point;
 use serde_json::{Value, json};
 
 fn inspect(sandbox: &Sandbox, line: &str) -> Value {
@@ -57,10 +58,11 @@ fn all_kinds_of_cells_have_one_structure() {
 fn what_is_nearly_a_polycube_is_accepted_and_reported() {
     let sandbox = Sandbox::new();
     let mut mesh = coarse(Example::Ring, CellKind::Triangles);
-    for (i, p) in mesh.points.iter_mut().enumerate() {
+    let askew = |(i, p): (usize, &mut Point)| {
         *p *= 0.37;
         p.z += 0.05 * (i as f64).sin();
-    }
+    };
+    mesh = mesh.edited(|points, _| points.iter_mut().enumerate().for_each(askew)).unwrap();
     sandbox.write_mesh("ring.ply", &mesh);
     let found = inspect(&sandbox, "ring.ply");
     assert_eq!((&found["genus"], &found["corners"]), (&json!(1), &json!(80)));

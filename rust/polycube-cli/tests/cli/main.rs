@@ -139,5 +139,5 @@ pub fn coarse(example: Example, kind: CellKind) -> Mesh {
 /// A smooth shape for a polycube.
 pub fn bent(polycube: &Mesh) -> Mesh {
     let bend = |p: &Point| Point::new(p.x + 0.004 * p.y * p.z, p.y + 0.003 * p.x * p.x, 1.2 * p.z);
-    Mesh { points: polycube.points.iter().map(bend).collect(), cells: polycube.cells.clone() }
+    polycube.moved(bend).unwrap()
 }

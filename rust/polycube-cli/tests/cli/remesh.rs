@@ -36,12 +36,12 @@ fn all_files_are_there_and_read_back() {
     assert_eq!(report["hex_blocks"], report["after"]["blocks_padded"]);
     for (file, cells) in [("hexes.mesh", "hexes"), ("hexes.vtu", "hexes"), ("layout.vtk", "hex_blocks")] {
         let mesh = mesh::read(&sandbox.path(&format!("out/{file}"))).unwrap();
-        assert_eq!(report[cells].as_u64().unwrap() as usize, mesh.cells.len(), "{file}");
+        assert_eq!(report[cells].as_u64().unwrap() as usize, mesh.cells().len(), "{file}");
         assert!(cell_qualities(&mesh).unwrap().iter().all(|q| q.1 > 0.0), "{file}");
     }
     let quads = mesh::read(&sandbox.path("out/quads.obj")).unwrap();
-    assert!(matches!(quads.cells, Cells::Quads(_)));
-    assert_eq!(report["quads"].as_u64().unwrap() as usize, quads.cells.len());
+    assert!(matches!(quads.cells(), Cells::Quads(_)));
+    assert_eq!(report["quads"].as_u64().unwrap() as usize, quads.cells().len());
     let text = String::from_utf8_lossy(&sandbox.read("out/hexes.vtu")).into_owned();
     assert!(["scaled_jacobian", "block_id", "label"].iter().all(|f| text.contains(&format!("\"{f}\""))));
 }

@@ -11,7 +11,7 @@ fn every_format_goes_in_and_out() {
     let sandbox = Sandbox::new();
     for kind in CellKind::ALL {
         let mesh = coarse(Example::SteppedL, kind);
-        let able: Vec<Format> = Format::ALL.into_iter().filter(|f| f.holds(mesh.cells.kind())).collect();
+        let able: Vec<Format> = Format::ALL.into_iter().filter(|f| f.holds(mesh.cells().kind())).collect();
         let mut seen: Option<Value> = None;
         for (i, from) in able.iter().enumerate() {
             let to = able[(i + 1) % able.len()];
@@ -19,8 +19,8 @@ fn every_format_goes_in_and_out() {
             sandbox.write_mesh(&name, &mesh);
             sandbox.ok(&format!("simplify {name} -o {out} --format {to}"));
             let result = mesh::read(&sandbox.path(&format!("{out}/polycube.{to}"))).unwrap();
-            assert_eq!(result.cells.kind(), mesh.cells.kind());
-            assert_eq!(result.cells.len(), mesh.cells.len(), "{name} to {to}");
+            assert_eq!(result.cells().kind(), mesh.cells().kind());
+            assert_eq!(result.cells().len(), mesh.cells().len(), "{name} to {to}");
             let after = sandbox.json(&format!("{out}/report.json"))["after"].clone();
             assert_eq!(*seen.get_or_insert(after.clone()), after, "{name}");
             sandbox.confirm(&out);
@@ -93,8 +93,8 @@ fn the_structure_file_ties_corners_to_vertices_and_levels() {
             let level = &file["levels"][corner["levels"][axis].as_u64().unwrap() as usize];
             assert_eq!(level["axis"], axis);
             assert_eq!((&level["before"], &level["after"]), (&corner["before"][axis], &corner["after"][axis]));
-            assert_eq!(corner["before"][axis].as_f64(), Some(before.points[vertex][axis]));
-            assert_eq!(corner["after"][axis].as_f64(), Some(after.points[vertex][axis]));
+            assert_eq!(corner["before"][axis].as_f64(), Some(before.points()[vertex][axis]));
+            assert_eq!(corner["after"][axis].as_f64(), Some(after.points()[vertex][axis]));
         }
     }
     assert_eq!((file["facets"].as_array().unwrap().len(), file["edges"].as_array().unwrap().len()), (32, 78));
@@ -110,7 +110,7 @@ fn labels_from_a_file_replace_the_normals() {
     // Half as high, so that the inner vertex of a facet that is moved a little tilts its faces more.
     let inner = polycube.vertex_levels.iter().position(|l| l.iter().flatten().count() == 1).unwrap();
     let axis = polycube.vertex_levels[inner].iter().position(Option::is_some).unwrap();
-    mesh.points[inner][axis] += 3.0;
+    mesh = mesh.edited(|points, _| points[inner][axis] += 3.0).unwrap();
     sandbox.write_mesh("l.obj", &mesh);
     mesh::write_labels(&sandbox.path("l.labels"), &labels).unwrap();
     sandbox.fails("simplify l.obj -o out --angle-tolerance 10", 3, &["give labels in a label file"]);

@@ -21,19 +21,28 @@ fn labels(mesh: &Mesh) -> Vec<i8> {
     Polycube::new(mesh, None, &Tolerance::default()).unwrap().labels().map(|l| l.index() as i8).collect()
 }
 
-fn quads(mesh: &mut Mesh) -> &mut Vec<[u32; 4]> {
-    let Cells::Quads(quads) = &mut mesh.cells else { panic!("not quadrilaterals") };
-    quads
+/// Changes the faces of a mesh of quadrilaterals.
+fn edit(mesh: &mut Mesh, change: impl FnOnce(&mut Vec<[u32; 4]>)) {
+    let (points, cells) = mesh.clone().into_parts();
+    let Cells::Quads(mut quads) = cells else { panic!("not quadrilaterals") };
+    change(&mut quads);
+    *mesh = Mesh::new(points, Cells::Quads(quads)).unwrap();
+}
+
+/// Changes the place of one vertex.
+fn place(mesh: &mut Mesh, v: usize, change: impl FnOnce(&mut Point)) {
+    *mesh = mesh.clone().edited(|points, _| change(&mut points[v])).unwrap();
 }
 
 fn vertex(mesh: &Mesh, at: [f64; 3]) -> usize {
-    mesh.points.iter().position(|p| *p == Point::from(at)).unwrap()
+    mesh.points().iter().position(|p| *p == Point::from(at)).unwrap()
 }
 
 /// The face of a cube of quadrilaterals whose centre is `at`.
 fn face(mesh: &Mesh, at: [f64; 3]) -> usize {
-    let along = |i: usize, axis: usize| mesh.cells.cell(i).iter().map(|&v| mesh.points[v as usize][axis]).sum::<f64>();
-    (0..mesh.cells.len()).find(|&i| [0, 1, 2].map(|axis| along(i, axis) / 4.0) == at).unwrap()
+    let along =
+        |i: usize, axis: usize| mesh.cells().cell(i).iter().map(|&v| mesh.points()[v as usize][axis]).sum::<f64>();
+    (0..mesh.cells().len()).find(|&i| [0, 1, 2].map(|axis| along(i, axis) / 4.0) == at).unwrap()
 }
 
 fn check(sandbox: &Sandbox, line: &str) -> Value {
@@ -100,7 +109,7 @@ fn shape_and_polycube_that_do_not_match() {
     let sandbox = Sandbox::new();
     let mut shape = cube(2, CellKind::Quads);
     sandbox.write_mesh("p.obj", &shape);
-    quads(&mut shape)[3].rotate_left(1);
+    edit(&mut shape, |quads| quads[3].rotate_left(1));
     sandbox.write_mesh("s.obj", &shape);
     assert_eq!(broken("p.obj --shape s.obj", &sandbox, "mismatch")["element"]["cell"], 3);
     sandbox.write_mesh("s.obj", &cube(3, CellKind::Quads));
@@ -125,14 +134,13 @@ fn a_broken_shape_is_named_and_not_its_polycube() {
 #[test]
 fn surfaces_that_are_not_closed_oriented_manifolds() {
     let mut open = cube(2, CellKind::Quads);
-    quads(&mut open).pop();
+    edit(&mut open, |quads| quads.truncate(quads.len() - 1));
     assert_eq!(broken_mesh(&open, "open_edge")["at"].as_array().unwrap().len(), 3);
     let mut fin = cube(2, CellKind::Quads);
-    let first = quads(&mut fin)[0];
-    quads(&mut fin).push([first[1], first[0], first[3], first[2]]);
+    edit(&mut fin, |quads| quads.push([1, 0, 3, 2].map(|k| quads[0][k])));
     broken_mesh(&fin, "non_manifold_edge");
     let mut turned = cube(2, CellKind::Quads);
-    quads(&mut turned)[5].reverse();
+    edit(&mut turned, |quads| quads[5].reverse());
     broken_mesh(&turned, "inconsistent_orientation");
     let touching = boxes(&[([0; 3], [1; 3]), ([1; 3], [2; 3])], CellKind::Quads);
     let found = broken_mesh(&touching, "non_manifold_vertex");
@@ -143,10 +151,10 @@ fn surfaces_that_are_not_closed_oriented_manifolds() {
 fn faces_that_look_nowhere_or_aslant() {
     let mut flat = cube(4, CellKind::Triangles);
     let v = vertex(&flat, [2.0, 2.0, 4.0]);
-    flat.points[v] = Point::new(1.0, 2.0, 4.0);
+    place(&mut flat, v, |p| *p = Point::new(1.0, 2.0, 4.0));
     broken_mesh(&flat, "flat_face");
     let mut skew = cube(4, CellKind::Triangles);
-    skew.points[v].z += 1.5;
+    place(&mut skew, v, |p| p.z += 1.5);
     let found = broken_mesh(&skew, "skew_face");
     assert!(found["element"]["face"].is_u64() && found["message"].as_str().unwrap().contains("degrees"));
 }
@@ -166,22 +174,22 @@ fn labels_that_make_no_polycube() {
     assert!(found["message"].as_str().unwrap().contains("0 corners"));
     let frame = [([0, 0, 0], [3, 1, 1]), ([0, 2, 0], [3, 3, 1]), ([0, 1, 0], [1, 2, 1]), ([2, 1, 0], [3, 2, 1])];
     let ring = boxes(&frame, CellKind::Quads);
-    broken_labels(&ring, &vec![4; ring.cells.len()], "chart_with_handle");
+    broken_labels(&ring, &vec![4; ring.cells().len()], "chart_with_handle");
 }
 
 #[test]
 fn edges_and_levels_that_are_out_of_place() {
     let mut step = boxes(&[([0; 3], [4, 4, 2]), ([0, 0, 2], [2, 4, 4])], CellKind::Quads);
     let step_labels = labels(&step);
-    step.points.iter_mut().for_each(|p| p.z = p.z.min(2.0));
+    step = step.moved(|p| Point::new(p.x, p.y, p.z.min(2.0))).unwrap();
     broken_labels(&step, &step_labels, "zero_length_edge");
     let mut back = cube(4, CellKind::Quads);
     let v = vertex(&back, [2.0, 0.0, 0.0]);
-    back.points[v].x = 0.5;
+    place(&mut back, v, |p| p.x = 0.5);
     broken_mesh(&back, "non_monotone_edge");
     let mut bulge = cube(4, CellKind::Quads);
     let v = vertex(&bulge, [2.0, 2.0, 4.0]);
-    bulge.points[v].z += 0.9;
+    place(&mut bulge, v, |p| p.z += 0.9);
     let bulge_labels = labels(&cube(4, CellKind::Quads));
     assert!(broken_labels(&bulge, &bulge_labels, "off_level")["message"].as_str().unwrap().contains("0.450"));
 }
@@ -189,14 +197,13 @@ fn edges_and_levels_that_are_out_of_place() {
 #[test]
 fn surfaces_that_cross_themselves_or_look_inward() {
     let mut crossing = cube(2, CellKind::Quads);
-    let count = crossing.points.len() as u32;
-    let moved: Vec<Point> = crossing.points.iter().map(|p| Point::new(p.x + 1.0, p.y + 1.0, p.z + 1.0)).collect();
-    crossing.points.extend(moved);
-    let second: Vec<[u32; 4]> = quads(&mut crossing).iter().map(|q| q.map(|v| v + count)).collect();
-    quads(&mut crossing).extend(second);
+    let beside = crossing.moved(|p| Point::new(p.x + 1.0, p.y + 1.0, p.z + 1.0)).unwrap();
+    let count = crossing.points().len() as u32;
+    crossing = crossing.edited(|points, _| points.extend(beside.points())).unwrap();
+    edit(&mut crossing, |quads| quads.extend(quads.clone().iter().map(|q| q.map(|v| v + count))));
     assert!(broken_mesh(&crossing, "self_overlap")["message"].as_str().unwrap().contains("face"));
     let mut inward = cube(2, CellKind::Quads);
-    quads(&mut inward).iter_mut().for_each(|q| q.reverse());
+    edit(&mut inward, |quads| quads.iter_mut().for_each(|q| q.reverse()));
     broken_mesh(&inward, "inside_out");
 }
 
@@ -206,7 +213,7 @@ fn elements_that_are_inverted() {
         let good = cube(2, kind);
         let mut bad = good.clone();
         let v = vertex(&bad, [1.0, 1.0, 1.0]);
-        bad.points[v].x = 3.0;
+        place(&mut bad, v, |p| p.x = 3.0);
         let found = broken_mesh(&bad, "inverted_cell");
         assert!(found["element"]["cell"].is_u64() && found["mesh"] == "polycube");
         let sandbox = Sandbox::new();
@@ -216,6 +223,6 @@ fn elements_that_are_inverted() {
     }
     let mut folded = cube(4, CellKind::Quads);
     let v = vertex(&folded, [1.0, 2.0, 4.0]);
-    folded.points[v].x = 2.5;
+    place(&mut folded, v, |p| p.x = 2.5);
     broken_mesh(&folded, "flipped_face");
 }

@@ -19,13 +19,13 @@ pub fn move_levels(mesh: &Mesh, labels: &[i8], mut offset: impl FnMut(usize) -> 
     check(mesh, labels)?;
     let (facet, count) = facets(mesh, labels);
     let offsets: Vec<f64> = (0..count).map(&mut offset).collect();
-    let mut moved = mesh.clone();
+    let mut points = mesh.points().to_vec();
     for (key, facet) in facet.into_iter().enumerate() {
         if let Some(facet) = facet {
-            moved.points[key / 3][key % 3] += offsets[facet];
+            points[key / 3][key % 3] += offsets[facet];
         }
     }
-    Ok(moved)
+    mesh.clone().with_points(points)
 }
 
 /// Moves every facet by a random offset of up to `fraction` of the shortest edge of the mesh, the
@@ -44,12 +44,12 @@ pub fn perturb(mesh: &Mesh, labels: &[i8], fraction: f64, seed: u64) -> Result<M
 }
 
 fn check(mesh: &Mesh, labels: &[i8]) -> Result<()> {
-    if mesh.cells.is_volume() {
+    if mesh.cells().is_volume() {
         let message = "levels move on a surface, but this mesh fills a volume";
         return Err(Error::new(ErrorKind::Unsupported, message));
     }
-    if labels.len() != mesh.cells.len() {
-        let message = format!("{} labels for {} faces", labels.len(), mesh.cells.len());
+    if labels.len() != mesh.cells().len() {
+        let message = format!("{} labels for {} faces", labels.len(), mesh.cells().len());
         return Err(Error::new(ErrorKind::Mismatch, message).remedy("give one label per face"));
     }
     match labels.iter().position(|l| !(0..6).contains(l)) {
@@ -65,15 +65,15 @@ fn check(mesh: &Mesh, labels: &[i8]) -> Result<()> {
 fn facets(mesh: &Mesh, labels: &[i8]) -> (Vec<Option<usize>>, usize) {
     let keys = |i: usize| {
         let axis = labels[i] as usize / 2;
-        mesh.cells.cell(i).iter().map(move |v| 3 * *v as usize + axis)
+        mesh.cells().cell(i).iter().map(move |v| 3 * *v as usize + axis)
     };
-    let mut sets = UnionFind::<usize>::new(3 * mesh.points.len());
+    let mut sets = UnionFind::<usize>::new(3 * mesh.points().len());
     for i in 0..labels.len() {
         keys(i).zip(keys(i).skip(1)).for_each(|(a, b)| {
             sets.union(a, b);
         });
     }
-    let mut number = vec![None; 3 * mesh.points.len()];
+    let mut number = vec![None; 3 * mesh.points().len()];
     let mut facet = number.clone();
     let mut count = 0;
     for key in (0..labels.len()).flat_map(keys) {
@@ -87,11 +87,11 @@ fn facets(mesh: &Mesh, labels: &[i8]) -> (Vec<Option<usize>>, usize) {
 
 fn shortest_edge(mesh: &Mesh) -> f64 {
     let mut shortest = f64::INFINITY;
-    for i in 0..mesh.cells.len() {
-        let face = mesh.cells.cell(i);
+    for i in 0..mesh.cells().len() {
+        let face = mesh.cells().cell(i);
         for (k, v) in face.iter().enumerate() {
             let next = face[(k + 1) % face.len()];
-            let edge = mesh.points[next as usize] - mesh.points[*v as usize];
+            let edge = mesh.points()[next as usize] - mesh.points()[*v as usize];
             shortest = shortest.min(edge.norm());
         }
     }
@@ -108,8 +108,8 @@ mod tests {
     fn is_axis_aligned(mesh: &Mesh, labels: &[i8]) -> bool {
         labels.iter().enumerate().all(|(i, label)| {
             let axis = *label as usize / 2;
-            let at = |v: &u32| mesh.points[*v as usize][axis];
-            let face = mesh.cells.cell(i);
+            let at = |v: &u32| mesh.points()[*v as usize][axis];
+            let face = mesh.cells().cell(i);
             face.iter().all(|v| at(v) == at(&face[0]))
         })
     }

@@ -123,7 +123,7 @@ impl Voxels {
             return Err(Error::new(ErrorKind::Mesh, "no cell of the polycube is solid"));
         }
         let points: Vec<Point> = (0..lattice.len()).map(|v| lattice.point(v)).collect();
-        Ok(Mesh::of_used(&points, cells).0)
+        Ok(Mesh::of_used(&points, cells)?.0)
     }
 }
 
@@ -168,7 +168,7 @@ mod tests {
             assert!(check::smallest_determinant(&mesh) > 0.5);
             let boundary = check::boundary(&mesh);
             let expected = voxels.mesh(surface, 1.0).unwrap();
-            assert_eq!(boundary.cells.len(), expected.cells.len());
+            assert_eq!(boundary.cells().len(), expected.cells().len());
             assert_eq!(check::sorted_faces(&boundary), check::sorted_faces(&expected));
         }
     }
@@ -176,9 +176,9 @@ mod tests {
     #[test]
     fn no_edge_is_longer_than_the_step() {
         let mesh = bracket().mesh(CellKind::Hexahedra, 0.75).unwrap();
-        for i in 0..mesh.cells.len() {
-            let cell = mesh.cells.cell(i);
-            let width = mesh.points[cell[6] as usize] - mesh.points[cell[0] as usize];
+        for i in 0..mesh.cells().len() {
+            let cell = mesh.cells().cell(i);
+            let width = mesh.points()[cell[6] as usize] - mesh.points()[cell[0] as usize];
             assert!(width.min() > 0.0 && width.max() <= 0.75);
         }
     }

@@ -1,7 +1,7 @@
 //! The symmetries of the cube, and moving and scaling.
 
 use crate::error::{Error, ErrorKind, Result};
-use crate::mesh::{Cells, Mesh, Point};
+use crate::mesh::{Cells, Mesh};
 use nalgebra::{Matrix3, Vector3};
 
 /// The 48 symmetries of the cube: every signed permutation of the axes, the identity first. The
@@ -20,10 +20,13 @@ pub fn symmetries() -> [Matrix3<f64>; 48] {
 
 /// The mesh with `matrix` applied to its points. Where the matrix reflects, cells are reordered
 /// so that surfaces still look outwards and volumes stay positive.
-pub fn transform(mesh: &Mesh, matrix: &Matrix3<f64>) -> Mesh {
-    let points = mesh.points.iter().map(|p| matrix * p).collect();
-    let cells = if matrix.determinant() < 0.0 { flipped(&mesh.cells) } else { mesh.cells.clone() };
-    Mesh { points, cells }
+///
+/// # Errors
+/// [`ErrorKind::Mesh`] when a point is not finite then.
+pub fn transform(mesh: &Mesh, matrix: &Matrix3<f64>) -> Result<Mesh> {
+    let points = mesh.points().iter().map(|p| matrix * p).collect();
+    let cells = if matrix.determinant() < 0.0 { flipped(mesh.cells()) } else { mesh.cells().clone() };
+    Mesh::new(points, cells)
 }
 
 /// The cells seen in a mirror; their first vertices stay first.
@@ -40,25 +43,23 @@ fn flipped(cells: &Cells) -> Cells {
 }
 
 /// The mesh moved by a vector.
-#[must_use]
-pub fn translate(mesh: &Mesh, by: Vector3<f64>) -> Mesh {
-    with_points(mesh, |p| p + by)
+///
+/// # Errors
+/// [`ErrorKind::Mesh`] when a point is not finite then.
+pub fn translate(mesh: &Mesh, by: Vector3<f64>) -> Result<Mesh> {
+    mesh.moved(|p| p + by)
 }
 
 /// The mesh scaled evenly about the origin.
 ///
 /// # Errors
-/// [`ErrorKind::Option`] when `factor` is not positive and finite.
+/// [`ErrorKind::Option`] when `factor` is not positive and finite; [`ErrorKind::Mesh`] when a point is not then.
 pub fn scale(mesh: &Mesh, factor: f64) -> Result<Mesh> {
     if !(factor.is_finite() && factor > 0.0) {
         let message = format!("the scale {factor} is not a positive number");
         return Err(Error::new(ErrorKind::Option, message));
     }
-    Ok(with_points(mesh, |p| p * factor))
-}
-
-fn with_points(mesh: &Mesh, new: impl Fn(&Point) -> Point) -> Mesh {
-    Mesh { points: mesh.points.iter().map(new).collect(), cells: mesh.cells.clone() }
+    mesh.moved(|p| p * factor)
 }
 
 #[cfg(test)]
@@ -87,7 +88,7 @@ mod tests {
         for kind in CellKind::ALL {
             let mesh = voxels.mesh(kind, 2.0).unwrap();
             for matrix in symmetries() {
-                let turned = transform(&mesh, &matrix);
+                let turned = transform(&mesh, &matrix).unwrap();
                 assert!((check::volume(&turned) - voxels.volume()).abs() < 1e-9);
                 if kind == CellKind::Tetrahedra || kind == CellKind::Hexahedra {
                     assert!(check::smallest_determinant(&turned) > 0.0);
@@ -102,7 +103,7 @@ mod tests {
     fn moving_and_scaling_change_the_volume_as_they_should() {
         let voxels = random_polycube(6, 3, 8).unwrap();
         let mesh = voxels.mesh(CellKind::Triangles, 2.0).unwrap();
-        let moved = translate(&mesh, Vector3::new(1.0, -2.0, 3.0));
+        let moved = translate(&mesh, Vector3::new(1.0, -2.0, 3.0)).unwrap();
         assert!((check::volume(&moved) - voxels.volume()).abs() < 1e-9);
         let big = scale(&mesh, 2.0).unwrap();
         assert!((check::volume(&big) - 8.0 * voxels.volume()).abs() < 1e-9);

@@ -149,7 +149,7 @@ mod tests {
             let result = simplify(&input, &options, &Context::default()).unwrap();
             let polycube = result.polycube.as_ref().unwrap();
             let levels = placement_of(&result.levels);
-            let pieces = Pieces::of_faces(&result.input, &polycube.points, &levels);
+            let pieces = Pieces::of_faces(&result.input, polycube.points(), &levels);
             let counts = count(&Arrangement::new(&result.input.structure, &levels));
             let found: BTreeSet<u32> = pieces.patch_of_face.iter().copied().collect();
             assert_eq!(found, (0..counts.surface_patches as u32).collect(), "{name}");
@@ -162,8 +162,8 @@ mod tests {
             let numbered = |points: &[Point], cells: &crate::mesh::Cells, ids: &[u32]| -> BTreeSet<([i64; 3], u32)> {
                 (0..cells.len()).map(|i| (middle(points, cells.cell(i)), ids[i])).collect()
             };
-            let own = numbered(&polycube.points, &polycube.cells, &pieces.patch_of_face);
-            assert_eq!(own, numbered(&quads.polycube, &quads.mesh.cells, &quads.patch_id), "{name}");
+            let own = numbered(polycube.points(), polycube.cells(), &pieces.patch_of_face);
+            assert_eq!(own, numbered(&quads.polycube, quads.mesh.cells(), &quads.patch_id), "{name}");
         }
     }
 
@@ -176,7 +176,7 @@ mod tests {
                 .unwrap();
             let polycube =
                 crate::structure::Polycube::new(&mesh, None, &crate::structure::Tolerance::default()).unwrap();
-            let pieces = Pieces::of_faces(&polycube, &mesh.points, &polycube.placement);
+            let pieces = Pieces::of_faces(&polycube, mesh.points(), &polycube.placement);
             assert!(pieces.block_of_face.iter().all(|&b| b == 0));
             let patches: BTreeSet<u32> = pieces.patch_of_face.iter().copied().collect();
             assert_eq!(patches.len(), 6);

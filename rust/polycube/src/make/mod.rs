@@ -80,7 +80,7 @@ pub struct Made {
 ///
 /// let (_, shape) = example(Example::SteppedL, 1, CellKind::Triangles)?;
 /// let made = make(&shape, &MakeOptions::default(), &Context::default())?;
-/// assert_eq!(made.shape.cells, made.polycube.cells);
+/// assert_eq!(made.shape.cells(), made.polycube.cells());
 /// assert!(made.report.folded.is_empty());
 /// # Ok::<(), polycube::Error>(())
 /// ```
@@ -95,9 +95,9 @@ pub fn make(shape: &Mesh, options: &MakeOptions, context: &Context) -> Result<Ma
     let triangles = triangles(shape)?;
     let mut seconds = MakeSeconds::default();
     let wanted = LoopOptions { detail: options.detail, corners: options.corners };
-    let set = loops::loops(&shape.points, &triangles, &wanted, &context.stage("loops", 0.0, 0.4))?;
+    let set = loops::loops(shape.points(), &triangles, &wanted, &context.stage("loops", 0.0, 0.4))?;
     seconds.loops = clock.elapsed().as_secs_f64();
-    let drawn = charts::charts(&shape.points, &triangles, &set, &context.stage("charts", 0.4, 0.5))?;
+    let drawn = charts::charts(shape.points(), &triangles, &set, &context.stage("charts", 0.4, 0.5))?;
     seconds.charts = clock.elapsed().as_secs_f64() - seconds.loops;
     let embedded = embedding::embed(&drawn, &set, &context.stage("embed", 0.5, 1.0))?;
     if embedded.polycube.structure.corners.len() != set.corners {
@@ -105,32 +105,28 @@ pub fn make(shape: &Mesh, options: &MakeOptions, context: &Context) -> Result<Ma
     }
     seconds.total = clock.elapsed().as_secs_f64();
     seconds.embedding = seconds.total - seconds.loops - seconds.charts;
-    Ok(finish(shape, embedded, seconds))
+    finish(shape, embedded, seconds)
 }
 
-fn finish(shape: &Mesh, embedded: Embedded, seconds: MakeSeconds) -> Made {
-    let [polycube, refined] = embedded.refined.meshes();
+fn finish(shape: &Mesh, embedded: Embedded, seconds: MakeSeconds) -> Result<Made> {
+    let [polycube, refined] = embedded.refined.meshes()?;
     let labels = embedded.refined.labels();
     let report = MakeReport::new(shape, &embedded, [&polycube, &refined], seconds);
-    Made { shape: refined, polycube, labels, report }
+    Ok(Made { shape: refined, polycube, labels, report })
 }
 
 /// The triangles of a closed surface.
 fn triangles(shape: &Mesh) -> Result<Vec<[u32; 3]>> {
-    if shape.cells.is_volume() {
-        let message = format!("a polycube is made of a surface, and this mesh has {}", shape.cells.kind());
+    if shape.cells().is_volume() {
+        let message = format!("a polycube is made of a surface, and this mesh has {}", shape.cells().kind());
         return Err(Error::new(ErrorKind::Unsupported, message).remedy("give the boundary of the mesh, as triangles"));
     }
-    let faces: Vec<Face> = match &shape.cells {
+    let faces: Vec<Face> = match shape.cells() {
         Cells::Triangles(t) => t.iter().map(|&t| Face::Triangle(t)).collect(),
         Cells::Quads(q) => q.iter().map(|&q| Face::Quad(q)).collect(),
         _ => Vec::new(),
     };
     let triangles = faces.iter().flat_map(Face::triangles).collect();
-    let finite = |p: &crate::mesh::Point| p.iter().all(|x| x.is_finite());
-    if let Some(v) = shape.points.iter().position(|p| !finite(p)) {
-        return Err(crate::structure::Violation::NotFinite { vertex: v as u32 }.into());
-    }
-    Surface::new(faces, shape.points.len()).map_err(|mut all| Error::from(all.swap_remove(0)))?;
+    Surface::new(faces, shape.points().len()).map_err(|mut all| Error::from(all.swap_remove(0)))?;
     Ok(triangles)
 }

@@ -52,7 +52,7 @@ impl MakeReport {
             genus: structure.genus(),
             misfit: misfit(shape, &embedded.refined.labels()),
             distortion: distortion(shape, polycube).ok().filter(|_| embedded.folded.is_empty()),
-            added: shape.points.len() - input.points.len(),
+            added: shape.points().len() - input.points().len(),
             folded: embedded.folded.clone(),
             seconds,
         }
@@ -61,10 +61,10 @@ impl MakeReport {
 
 /// The mean over triangles, by their areas, of one minus the cosine between normal and label.
 fn misfit(shape: &Mesh, labels: &[i8]) -> f64 {
-    let Cells::Triangles(triangles) = &shape.cells else { return 0.0 };
+    let Cells::Triangles(triangles) = shape.cells() else { return 0.0 };
     let (mut looking, mut total) = (0.0, 0.0);
     for (&t, &label) in triangles.iter().zip(labels) {
-        let normal = area_vector(&shape.points, &Face::Triangle(t));
+        let normal = area_vector(shape.points(), &Face::Triangle(t));
         looking += along(&normal, label as u8);
         total += normal.norm();
     }

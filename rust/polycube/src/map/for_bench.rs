@@ -31,24 +31,24 @@ fn for_bench() {
 
 /// The x coordinate on the surface, where it is free.
 fn surface(folder: &Path, name: &str, mesh: &Mesh) {
-    let Cells::Triangles(triangles) = &mesh.cells else { panic!("{name} is no surface") };
-    let weights = cotangent_weights(&mesh.points, triangles, &Context::default()).unwrap();
+    let Cells::Triangles(triangles) = mesh.cells() else { panic!("{name} is no surface") };
+    let weights = cotangent_weights(mesh.points(), triangles, &Context::default()).unwrap();
     let fixed = on_levels(mesh, uneven);
     let known: Vec<_> = fixed.iter().map(|f| f.map(|c| c.is_some())).collect();
     let moves: Vec<Values<3>> =
-        fixed.iter().zip(&mesh.points).map(|(f, p)| [0, 1, 2].map(|k| f[k].map_or(0.0, |c| c - p[k]))).collect();
+        fixed.iter().zip(mesh.points()).map(|(f, p)| [0, 1, 2].map(|k| f[k].map_or(0.0, |c| c - p[k]))).collect();
     record(folder, name, &System::new(&weights, &known, [0], &moves).unwrap());
 }
 
 /// All coordinates inside, where the surface is held.
 fn inside(folder: &Path, name: &str, mesh: &Mesh) {
-    let Cells::Tetrahedra(tetrahedra) = &mesh.cells else { panic!("{name} is no volume") };
+    let Cells::Tetrahedra(tetrahedra) = mesh.cells() else { panic!("{name} is no volume") };
     let fixed = on_levels(mesh, uneven);
     let inner: Vec<bool> = fixed.iter().map(|f| *f == [None; 3]).collect();
-    let weights = mean_value_weights(&mesh.points, tetrahedra, &inner, &Context::default()).unwrap();
+    let weights = mean_value_weights(mesh.points(), tetrahedra, &inner, &Context::default()).unwrap();
     let known: Vec<_> = inner.iter().map(|&inner| [!inner; 3]).collect();
     let moved = morph(mesh, &fixed, &Context::default()).unwrap();
-    let moves: Vec<Values<3>> = moved.iter().zip(&mesh.points).map(|(to, from)| (to - from).into()).collect();
+    let moves: Vec<Values<3>> = moved.iter().zip(mesh.points()).map(|(to, from)| (to - from).into()).collect();
     record(folder, name, &System::new(&weights, &known, [0, 1, 2], &moves).unwrap());
 }
 

@@ -109,8 +109,8 @@ mod tests {
     use proptest::prelude::*;
 
     fn rows(mesh: &Mesh, inner: &[bool]) -> SparseRows {
-        let Cells::Tetrahedra(t) = &mesh.cells else { panic!("not tetrahedra") };
-        mean_value_weights(&mesh.points, t, inner, &Context::default()).unwrap()
+        let Cells::Tetrahedra(t) = mesh.cells() else { panic!("not tetrahedra") };
+        mean_value_weights(mesh.points(), t, inner, &Context::default()).unwrap()
     }
 
     /// The 24 tetrahedra around the centre of the box of two cubes a side, and that centre.
@@ -138,11 +138,11 @@ mod tests {
     #[test]
     fn an_inverted_star_weighs_uniformly() {
         let (mut mesh, inner) = star(1);
-        mesh.points[13] = Point::new(5.0, 5.0, 5.0);
+        mesh.points_mut()[13] = Point::new(5.0, 5.0, 5.0);
         let row: Vec<_> = rows(&mesh, &inner).row(13).collect();
         assert!(row.len() > 10 && row.iter().all(|e| e.1 == row[0].1));
         assert!((row.iter().map(|e| e.1).sum::<f64>() - 1.0).abs() < 1e-14);
-        mesh.points[13] = mesh.points[0];
+        mesh.points_mut()[13] = mesh.points()[0];
         assert!(rows(&mesh, &inner).row(13).all(|e| e.1.is_finite()));
     }
 
@@ -155,8 +155,8 @@ mod tests {
             let f = |p: &Point| 3.0 + slope[0] * p.x + slope[1] * p.y + slope[2] * p.z;
             let row: Vec<_> = rows(&mesh, &inner).row(13).collect();
             prop_assert!(row.iter().all(|e| e.1 > 0.0));
-            let mean: f64 = row.iter().map(|&(j, w)| w * f(&mesh.points[j])).sum();
-            prop_assert!((mean - f(&mesh.points[13])).abs() < 1e-13);
+            let mean: f64 = row.iter().map(|&(j, w)| w * f(&mesh.points()[j])).sum();
+            prop_assert!((mean - f(&mesh.points()[13])).abs() < 1e-13);
         }
     }
 }

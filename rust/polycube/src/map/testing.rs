@@ -19,14 +19,14 @@ pub(crate) fn hex_box(n: [u32; 3]) -> Mesh {
             }
         }
     }
-    Mesh { points, cells: Cells::Hexahedra(hexes) }
+    Mesh::new(points, Cells::Hexahedra(hexes)).expect("a mesh")
 }
 
 /// The same box of tetrahedra.
 pub(crate) fn tet_box(n: [u32; 3]) -> Mesh {
     let mesh = hex_box(n);
-    let Simplices::Tetrahedra(t) = mesh.cells.simplices() else { panic!("not a volume") };
-    Mesh { cells: Cells::Tetrahedra(t.into_owned()), points: mesh.points }
+    let Simplices::Tetrahedra(t) = mesh.cells().simplices() else { panic!("not a volume") };
+    Mesh::new(mesh.points().to_vec(), Cells::Tetrahedra(t.into_owned())).expect("a mesh")
 }
 
 /// Its surface of quadrilaterals; the inner vertices stay, used by no cell.
@@ -36,31 +36,29 @@ pub(crate) fn quad_box(n: [u32; 3]) -> Mesh {
         Face::Quad(q) => q,
         Face::Triangle(_) => panic!("not a quadrilateral"),
     };
-    let cells = mesh.cells.boundary().unwrap().into_iter().map(quad).collect();
-    Mesh { cells: Cells::Quads(cells), points: mesh.points }
+    let cells = mesh.cells().boundary().unwrap().into_iter().map(quad).collect();
+    Mesh::new(mesh.points().to_vec(), Cells::Quads(cells)).expect("a mesh")
 }
 
 /// The same of triangles.
 pub(crate) fn tri_box(n: [u32; 3]) -> Mesh {
     let mesh = quad_box(n);
-    let Simplices::Triangles(t) = mesh.cells.simplices() else { panic!("not a surface") };
-    Mesh { cells: Cells::Triangles(t.into_owned()), points: mesh.points }
+    let Simplices::Triangles(t) = mesh.cells().simplices() else { panic!("not a surface") };
+    Mesh::new(mesh.points().to_vec(), Cells::Triangles(t.into_owned())).expect("a mesh")
 }
 
 /// The mesh with its vertices numbered at random.
 pub(crate) fn shuffled(mesh: &Mesh, seed: u64) -> Mesh {
     let mut random = SplitMix64::new(seed);
-    let mut order: Vec<(f64, usize)> = (0..mesh.points.len()).map(|v| (random.unit(), v)).collect();
+    let mut order: Vec<(f64, usize)> = (0..mesh.points().len()).map(|v| (random.unit(), v)).collect();
     order.sort_by(|a, b| a.0.total_cmp(&b.0));
     let mut rank = vec![0; order.len()];
     for (new, &(_, old)) in order.iter().enumerate() {
         rank[old] = new as u32;
     }
-    let Cells::Hexahedra(cells) = &mesh.cells else { panic!("not hexahedra") };
-    Mesh {
-        points: order.iter().map(|&(_, old)| mesh.points[old]).collect(),
-        cells: Cells::Hexahedra(cells.iter().map(|c| c.map(|v| rank[v as usize])).collect()),
-    }
+    let Cells::Hexahedra(cells) = mesh.cells() else { panic!("not hexahedra") };
+    let points = order.iter().map(|&(_, old)| mesh.points()[old]).collect();
+    Mesh::new(points, Cells::Hexahedra(cells.iter().map(|c| c.map(|v| rank[v as usize])).collect())).expect("a mesh")
 }
 
 /// The box with every coordinate that is free of the box's sides moved by up to `amount`.
@@ -68,7 +66,7 @@ pub(crate) fn jittered(mesh: &Mesh, amount: f64, seed: u64) -> Mesh {
     let mut random = SplitMix64::new(seed);
     let sides = levels(mesh);
     let mut mesh = mesh.clone();
-    for (p, side) in mesh.points.iter_mut().zip(sides) {
+    for (p, side) in mesh.points_mut().iter_mut().zip(sides) {
         for k in 0..3 {
             let step = amount * (2.0 * random.unit() - 1.0);
             p[k] += if side[k].is_none() { step } else { 0.0 };
@@ -79,29 +77,29 @@ pub(crate) fn jittered(mesh: &Mesh, amount: f64, seed: u64) -> Mesh {
 
 /// The coordinates of a box's vertices on its sides.
 pub(crate) fn levels(mesh: &Mesh) -> Vec<[Option<f64>; 3]> {
-    let far = mesh.points.iter().fold([0.0_f64; 3], |m, p| [m[0].max(p.x), m[1].max(p.y), m[2].max(p.z)]);
+    let far = mesh.points().iter().fold([0.0_f64; 3], |m, p| [m[0].max(p.x), m[1].max(p.y), m[2].max(p.z)]);
     let side = |p: &Point, k: usize| (p[k] == 0.0 || p[k] == far[k]).then_some(p[k]);
-    mesh.points.iter().map(|p| [side(p, 0), side(p, 1), side(p, 2)]).collect()
+    mesh.points().iter().map(|p| [side(p, 0), side(p, 1), side(p, 2)]).collect()
 }
 
 /// The label of every boundary face, by its normal; −1 for a flat one.
 pub(crate) fn labels(mesh: &Mesh) -> Vec<i8> {
     let label = |f: &Face| {
-        let p: Vec<_> = f.vertices().iter().map(|&v| mesh.points[v as usize]).collect();
+        let p: Vec<_> = f.vertices().iter().map(|&v| mesh.points()[v as usize]).collect();
         let normal = (p[1] - p[0]).cross(&(p[2] - p[0]));
         let axis = normal.iamax() as i8;
         if normal == nalgebra::Vector3::zeros() { -1 } else { 2 * axis + i8::from(normal[axis as usize] < 0.0) }
     };
-    mesh.cells.boundary().unwrap().iter().map(label).collect()
+    mesh.cells().boundary().unwrap().iter().map(label).collect()
 }
 
 /// Every boundary vertex on the level of each of its facets, moved by `level(axis, coordinate)`.
 pub(crate) fn on_levels(mesh: &Mesh, level: impl Fn(usize, f64) -> f64) -> Vec<[Option<f64>; 3]> {
-    let mut fixed = vec![[None; 3]; mesh.points.len()];
-    for (face, label) in mesh.cells.boundary().unwrap().iter().zip(labels(mesh)) {
+    let mut fixed = vec![[None; 3]; mesh.points().len()];
+    for (face, label) in mesh.cells().boundary().unwrap().iter().zip(labels(mesh)) {
         for &v in face.vertices().iter().filter(|_| label >= 0) {
             let axis = label as usize / 2;
-            fixed[v as usize][axis] = Some(level(axis, mesh.points[v as usize][axis]));
+            fixed[v as usize][axis] = Some(level(axis, mesh.points()[v as usize][axis]));
         }
     }
     fixed

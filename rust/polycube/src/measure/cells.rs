@@ -30,7 +30,7 @@ impl CellMeasures {
     /// # Errors
     /// [`ErrorKind::Unsupported`] for other cells.
     pub fn new(mesh: &Mesh) -> Result<Self> {
-        let (Cells::Hexahedra(hexes), points) = (&mesh.cells, &mesh.points) else {
+        let (Cells::Hexahedra(hexes), points) = (mesh.cells(), mesh.points()) else {
             return Err(Error::new(ErrorKind::Unsupported, "only hexahedra have these measures")
                 .remedy("give a mesh of hexahedra"));
         };
@@ -146,7 +146,7 @@ mod tests {
             let [x, y, z] = [i % 3, i / 3 % 2, i / 6].map(|k| k as f64);
             if x == 2.0 { Point::new(1.0 + end, y + shear, z) } else { Point::new(x, y, z) }
         };
-        Mesh { points: (0..12).map(place).collect(), cells: Cells::Hexahedra(vec![cell(0), cell(1)]) }
+        Mesh::new((0..12).map(place).collect(), Cells::Hexahedra(vec![cell(0), cell(1)])).unwrap()
     }
 
     #[test]
@@ -177,7 +177,7 @@ mod tests {
 
     #[test]
     fn other_cells_are_refused() {
-        let mesh = Mesh { points: Vec::new(), cells: Cells::Triangles(Vec::new()) };
+        let mesh = Mesh::new(Vec::new(), Cells::Triangles(Vec::new())).unwrap();
         assert_eq!(CellMeasures::new(&mesh).unwrap_err().kind, ErrorKind::Unsupported);
     }
 }

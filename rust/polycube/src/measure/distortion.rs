@@ -1,6 +1,5 @@
 //! How far the map from one mesh to another is from a similarity.
 
-use super::check::check_mesh;
 use crate::error::{Error, ErrorKind, Result};
 use crate::mesh::{Mesh, Point, Simplices};
 use nalgebra::Matrix3;
@@ -64,19 +63,16 @@ enum Image {
 ///
 /// # Errors
 /// [`ErrorKind::Mismatch`] unless both have the same cells and number of vertices;
-/// [`ErrorKind::Mesh`] for a vertex index out of range, a point that is not finite, or when no
-/// simplex is left to measure.
+/// [`ErrorKind::Mesh`] when no simplex is left to measure.
 pub fn distortion(from: &Mesh, to: &Mesh) -> Result<Distortion> {
-    if from.cells != to.cells || from.points.len() != to.points.len() {
+    if from.cells() != to.cells() || from.points().len() != to.points().len() {
         return Err(Error::new(ErrorKind::Mismatch, "the two meshes do not have the same cells"));
     }
-    check_mesh(from)?;
-    check_mesh(to)?;
-    let images = match from.cells.simplices() {
+    let images = match from.cells().simplices() {
         Simplices::Triangles(t) => images(&t, from, to, triangle),
         Simplices::Tetrahedra(t) => images(&t, from, to, tetrahedron),
     };
-    summary(&images, from.cells.len())
+    summary(&images, from.cells().len())
 }
 
 /// Means, maxima and counts over the images of all simplices, which come from `cells` cells.
@@ -127,7 +123,7 @@ fn images<const K: usize>(
     to: &Mesh,
     image: fn([Point; K], [Point; K]) -> Image,
 ) -> Vec<Image> {
-    let corners = |mesh: &Mesh, s: &[u32; K]| s.map(|v| mesh.points[v as usize]);
+    let corners = |mesh: &Mesh, s: &[u32; K]| s.map(|v| mesh.points()[v as usize]);
     simplices.iter().map(|s| image(corners(from, s), corners(to, s))).collect()
 }
 
@@ -179,7 +175,7 @@ mod tests {
     use proptest::prelude::*;
 
     fn moved(mesh: &Mesh, f: impl Fn(&Point) -> Point) -> Mesh {
-        Mesh { points: mesh.points.iter().map(f).collect(), cells: mesh.cells.clone() }
+        mesh.moved(f).unwrap()
     }
 
     #[test]
@@ -201,11 +197,11 @@ mod tests {
         let mirrored = moved(&tets, |p| Point::new(-p.x, p.y, p.z));
         assert_eq!(distortion(&tets, &mirrored).unwrap_err().kind, ErrorKind::Mesh);
         let mut pushed = tets.clone();
-        pushed.points[13].x = 3.5;
+        pushed.points_mut()[13].x = 3.5;
         let found = distortion(&tets, &pushed).unwrap();
         assert!(found.inverted > 0 && found.angle.is_finite());
         let mut flat = tets.clone();
-        flat.points[13] = flat.points[0];
+        flat.points_mut()[13] = flat.points()[0];
         assert!(distortion(&tets, &flat).unwrap().degenerate > 0);
     }
 
@@ -220,7 +216,7 @@ mod tests {
         let hexes = hex_box([3, 1, 1]);
         let mut bent = hexes.clone();
         // The corner (3, 1, 1) belongs to the last cell.
-        bent.points[15] = Point::new(4.0, 1.5, 1.5);
+        bent.points_mut()[15] = Point::new(4.0, 1.5, 1.5);
         assert_eq!(distortion(&hexes, &bent).unwrap().worst_cell, 2);
     }
 

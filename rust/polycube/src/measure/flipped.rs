@@ -1,6 +1,5 @@
 //! Which elements of a polycube are turned over.
 
-use super::check::check_mesh;
 use crate::error::{Error, ErrorKind, Place, Result};
 use crate::mesh::hexahedron::corner_tetrahedra;
 use crate::mesh::{Cells, Face, Mesh, Point};
@@ -35,16 +34,14 @@ impl Flipped {
 ///
 /// # Errors
 /// [`ErrorKind::Mismatch`] if the number of labels is not that of the boundary faces,
-/// [`ErrorKind::Option`] for a label out of range, [`ErrorKind::Mesh`] for a vertex index out of
-/// range, a point that is not finite, or a face of three cells.
+/// [`ErrorKind::Option`] for a label out of range, [`ErrorKind::Mesh`] for a face of three cells.
 pub fn flipped(mesh: &Mesh, labels: &[i8]) -> Result<Flipped> {
-    check_mesh(mesh)?;
-    let faces = if labels.is_empty() { Vec::new() } else { mesh.cells.boundary()? };
+    let faces = if labels.is_empty() { Vec::new() } else { mesh.cells().boundary()? };
     check_labels(labels, faces.len())?;
-    let at = |v: u32| mesh.points[v as usize];
+    let at = |v: u32| mesh.points()[v as usize];
     let turned = |i: &u32| face_flipped(&faces[*i as usize], labels[*i as usize], at);
     Ok(Flipped {
-        cells: (0..mesh.cells.len() as u32).filter(|&i| cell_flipped(mesh, i as usize)).collect(),
+        cells: (0..mesh.cells().len() as u32).filter(|&i| cell_flipped(mesh, i as usize)).collect(),
         faces: (0..faces.len() as u32).filter(turned).collect(),
     })
 }
@@ -64,10 +61,10 @@ fn check_labels(labels: &[i8], faces: usize) -> Result<()> {
 
 fn cell_flipped(mesh: &Mesh, i: usize) -> bool {
     let is_bad = |tet: &[u32; 4]| {
-        let [a, b, c, d] = tet.map(|v| mesh.points[v as usize]);
+        let [a, b, c, d] = tet.map(|v| mesh.points()[v as usize]);
         (b - a).cross(&(c - a)).dot(&(d - a)) <= 0.0
     };
-    match &mesh.cells {
+    match mesh.cells() {
         Cells::Triangles(_) | Cells::Quads(_) => false,
         Cells::Tetrahedra(c) => is_bad(&c[i]),
         Cells::Hexahedra(c) => corner_tetrahedra(&c[i]).iter().any(is_bad),
@@ -106,7 +103,7 @@ mod tests {
     #[test]
     fn a_pushed_out_centre_flips_cells_only() {
         for (mut mesh, all) in [(tet_box([2, 2, 2]), 48), (hex_box([2, 2, 2]), 8)] {
-            mesh.points[13].x = 3.0;
+            mesh.points_mut()[13].x = 3.0;
             let found = flipped(&mesh, &labels(&mesh)).unwrap();
             assert!(found.faces.is_empty() && !found.cells.is_empty() && found.cells.len() < all);
         }
@@ -117,7 +114,7 @@ mod tests {
         for mut mesh in [tri_box([3, 2, 2]), quad_box([3, 2, 2]), hex_box([3, 2, 2]), tet_box([3, 2, 2])] {
             let labels = labels(&mesh);
             // Vertex (1, 1, 0) in the facet −Z beyond (2, 1, 0).
-            mesh.points[5].x = 2.5;
+            mesh.points_mut()[5].x = 2.5;
             let found = flipped(&mesh, &labels).unwrap();
             assert!(!found.faces.is_empty());
             assert!(found.faces.iter().all(|&i| labels[i as usize] == 5));
@@ -128,14 +125,14 @@ mod tests {
     fn flat_elements_count_and_unset_labels_do_not() {
         let mut mesh = quad_box([1, 1, 1]);
         let mut labels = labels(&mesh);
-        for p in &mut mesh.points {
+        for p in mesh.points_mut() {
             p.z = 0.0;
         }
         assert_eq!(flipped(&mesh, &labels).unwrap().faces.len(), 4);
         labels.fill(-1);
         assert!(flipped(&mesh, &labels).unwrap().is_empty());
         let mut mesh = tet_box([1, 1, 1]);
-        mesh.points.fill(Point::origin());
+        mesh.points_mut().fill(Point::origin());
         assert_eq!(flipped(&mesh, &[]).unwrap().cells, [0, 1, 2, 3, 4, 5]);
     }
 

@@ -32,9 +32,9 @@ pub fn hausdorff(mesh: &Mesh, shape: &Mesh, context: &Context) -> Result<f64> {
 /// The distance grows no faster than one walks, so samples that cannot be farther than the farthest yet are skipped.
 fn farthest(from: &Mesh, to: &Mesh, context: &Context) -> Result<f64> {
     context.check()?;
-    let faces = from.cells.boundary()?;
+    let faces = from.cells().boundary()?;
     context.check()?;
-    let target = to.cells.boundary()?;
+    let target = to.cells().boundary()?;
     if faces.is_empty() || target.is_empty() {
         return Err(Error::new(ErrorKind::Mesh, "a mesh without cells has no surface"));
     }
@@ -56,7 +56,7 @@ fn farthest(from: &Mesh, to: &Mesh, context: &Context) -> Result<f64> {
 fn farthest_sample(mesh: &Mesh, face: &Face, index: &Nearest<3>, at_vertices: &[f64], least: f64) -> f64 {
     let mut worst = least;
     for sample in samples(mesh, face) {
-        let reach = |&v: &u32| at_vertices[v as usize] + (sample - mesh.points[v as usize]).norm();
+        let reach = |&v: &u32| at_vertices[v as usize] + (sample - mesh.points()[v as usize]).norm();
         if face.vertices().iter().map(reach).fold(f64::INFINITY, f64::min) > worst {
             worst = worst.max(index.distance(&sample));
         }
@@ -66,7 +66,7 @@ fn farthest_sample(mesh: &Mesh, face: &Face, index: &Nearest<3>, at_vertices: &[
 
 /// The distance of every vertex of `faces` from the index; 0 for vertices off the surface.
 fn vertex_distances(mesh: &Mesh, faces: &[Face], index: &Nearest<3>, context: &Context) -> Result<Vec<f64>> {
-    let mut used = vec![false; mesh.points.len()];
+    let mut used = vec![false; mesh.points().len()];
     faces.iter().flat_map(Face::vertices).for_each(|&v| used[v as usize] = true);
     let mut distances = vec![0.0; used.len()];
     let distance = |(distance, (point, used)): (&mut f64, (&Point, &bool))| {
@@ -76,7 +76,7 @@ fn vertex_distances(mesh: &Mesh, faces: &[Face], index: &Nearest<3>, context: &C
     for (i, some) in distances.chunks_mut(AT_ONCE).enumerate() {
         let first = i * AT_ONCE;
         context.tick(first as f64 / count as f64)?;
-        let inputs = mesh.points[first..].par_iter().zip(&used[first..]);
+        let inputs = mesh.points()[first..].par_iter().zip(&used[first..]);
         some.par_iter_mut().zip(inputs).with_min_len(64).for_each(distance);
     }
     Ok(distances)
@@ -84,7 +84,7 @@ fn vertex_distances(mesh: &Mesh, faces: &[Face], index: &Nearest<3>, context: &C
 
 /// Points of a face beside its vertices.
 pub(crate) fn samples(mesh: &Mesh, face: &Face) -> Vec<Point> {
-    let at = |v: u32| mesh.points[v as usize];
+    let at = |v: u32| mesh.points()[v as usize];
     match *face {
         Face::Triangle(t) => {
             let [a, b, c] = t.map(at);
@@ -103,7 +103,7 @@ pub(crate) fn samples(mesh: &Mesh, face: &Face) -> Vec<Point> {
 
 /// A face as triangles: a flat quadrilateral as two, a bent one as four around its centre.
 pub(crate) fn triangles(mesh: &Mesh, face: &Face) -> Vec<[Point; 3]> {
-    let at = |v: u32| mesh.points[v as usize];
+    let at = |v: u32| mesh.points()[v as usize];
     match *face {
         Face::Triangle(t) => vec![t.map(at)],
         Face::Quad(q) => {
@@ -121,9 +121,9 @@ pub(crate) fn triangles(mesh: &Mesh, face: &Face) -> Vec<[Point; 3]> {
 pub(crate) fn diagonal(mesh: &Mesh) -> f64 {
     let mut low = [f64::INFINITY; 3];
     let mut high = [f64::NEG_INFINITY; 3];
-    for v in (0..mesh.cells.len()).flat_map(|i| mesh.cells.cell(i)) {
+    for v in (0..mesh.cells().len()).flat_map(|i| mesh.cells().cell(i)) {
         for a in 0..3 {
-            let x = mesh.points[*v as usize][a];
+            let x = mesh.points()[*v as usize][a];
             (low[a], high[a]) = (low[a].min(x), high[a].max(x));
         }
     }

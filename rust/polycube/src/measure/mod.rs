@@ -6,7 +6,6 @@
 
 mod base_complex;
 mod cells;
-mod check;
 mod distortion;
 mod faces;
 mod flipped;
@@ -16,7 +15,6 @@ mod soundness;
 
 pub use base_complex::base_complex;
 pub use cells::{CellMeasures, MeasureSummary, Spread};
-pub(crate) use check::check_mesh;
 pub use distortion::{Distortion, distortion};
 pub use flipped::{Flipped, flipped};
 pub use hausdorff::hausdorff;

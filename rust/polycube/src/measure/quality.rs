@@ -105,8 +105,8 @@ pub fn tetrahedron_volume(points: &[Point], tet: &[u32; 4]) -> f64 {
 /// # Errors
 /// [`ErrorKind::Unsupported`] for triangles.
 pub fn scaled_jacobians(mesh: &Mesh) -> Result<Vec<f64>> {
-    let p = &mesh.points;
-    match &mesh.cells {
+    let p = mesh.points();
+    match mesh.cells() {
         Cells::Quads(c) => Ok(c.iter().map(|c| quadrilateral_scaled_jacobian(p, c)).collect()),
         Cells::Triangles(_) => Err(Error::new(ErrorKind::Unsupported, "triangles have no scaled Jacobian")
             .remedy("give a mesh of quadrilaterals, tetrahedra or hexahedra")),
@@ -119,8 +119,8 @@ pub fn scaled_jacobians(mesh: &Mesh) -> Result<Vec<f64>> {
 /// # Errors
 /// [`ErrorKind::Unsupported`] for a surface.
 pub fn cell_qualities(mesh: &Mesh) -> Result<Vec<(f64, f64)>> {
-    let p = &mesh.points;
-    match &mesh.cells {
+    let p = mesh.points();
+    match mesh.cells() {
         Cells::Hexahedra(c) => Ok(c.iter().map(|c| (scaled_jacobian(p, c), hexahedron_volume(p, c))).collect()),
         Cells::Tetrahedra(c) => {
             let each = |c| (tetrahedron_scaled_jacobian(p, c), tetrahedron_volume(p, c));
@@ -216,32 +216,32 @@ mod tests {
     fn cube() -> Mesh {
         let at = [[0, 0, 0], [1, 0, 0], [1, 1, 0], [0, 1, 0], [0, 0, 1], [1, 0, 1], [1, 1, 1], [0, 1, 1]];
         let points = at.iter().map(|p| Point::from(p.map(f64::from))).collect();
-        Mesh { points, cells: Cells::Hexahedra(vec![[0, 1, 2, 3, 4, 5, 6, 7]]) }
+        Mesh::new(points, Cells::Hexahedra(vec![[0, 1, 2, 3, 4, 5, 6, 7]])).unwrap()
     }
 
     #[test]
     fn a_quality_does_not_depend_on_the_size_and_no_number_is_the_worst() {
         let hex = [0, 1, 2, 3, 4, 5, 6, 7];
         let mut mesh = cube();
-        mesh.points[6] = Point::new(1.3, 0.9, 1.2);
-        mesh.points.iter_mut().for_each(|p| p.x = -p.x);
-        let own = scaled_jacobian(&mesh.points, &hex);
+        mesh.points_mut()[6] = Point::new(1.3, 0.9, 1.2);
+        mesh.points_mut().iter_mut().for_each(|p| p.x = -p.x);
+        let own = scaled_jacobian(mesh.points(), &hex);
         for size in [1e30, 1e105, 1e200] {
-            let large: Vec<Point> = mesh.points.iter().map(|p| p * size).collect();
+            let large: Vec<Point> = mesh.points().iter().map(|p| p * size).collect();
             let found = scaled_jacobian(&large, &hex);
             assert!((found - own).abs() < 1e-12, "{size}: {found}, not {own}");
         }
-        mesh.points[6].y = f64::NAN;
-        assert_eq!(scaled_jacobian(&mesh.points, &hex), -1.0);
-        assert_eq!(tetrahedron_scaled_jacobian(&mesh.points, &[0, 1, 2, 6]), -1.0);
-        assert_eq!(quadrilateral_scaled_jacobian(&mesh.points, &[4, 5, 6, 7]), -1.0);
+        mesh.points_mut()[6].y = f64::NAN;
+        assert_eq!(scaled_jacobian(mesh.points(), &hex), -1.0);
+        assert_eq!(tetrahedron_scaled_jacobian(mesh.points(), &[0, 1, 2, 6]), -1.0);
+        assert_eq!(quadrilateral_scaled_jacobian(mesh.points(), &[4, 5, 6, 7]), -1.0);
     }
 
     #[test]
     fn boxes_are_perfect_and_mirrored_ones_inverted() {
         let mut mesh = cube();
         assert_eq!(cell_qualities(&mesh).unwrap(), [(1.0, 1.0)]);
-        mesh.points.iter_mut().for_each(|p| p.x *= -2.0);
+        mesh.points_mut().iter_mut().for_each(|p| p.x *= -2.0);
         let stats = statistics(&cell_qualities(&mesh).unwrap());
         assert_eq!((stats.min, stats.volume, stats.inverted, stats.histogram[0]), (-1.0, -2.0, 1, 1));
     }
@@ -250,7 +250,7 @@ mod tests {
     fn a_sheared_corner_has_the_sine_of_its_angle() {
         let mut mesh = cube();
         for v in [2, 3, 6, 7] {
-            mesh.points[v].x += 1.0;
+            mesh.points_mut()[v].x += 1.0;
         }
         let [(quality, volume)] = cell_qualities(&mesh).unwrap()[..] else { panic!() };
         assert!((quality - 0.5_f64.sqrt()).abs() < 1e-15 && (volume - 1.0).abs() < 1e-15);
@@ -258,9 +258,9 @@ mod tests {
 
     #[test]
     fn quadrilaterals_have_the_least_sine_of_their_corners() {
-        let flat = |corners: [[f64; 2]; 4]| Mesh {
-            points: corners.iter().map(|p| Point::new(p[0], p[1], 3.0)).collect(),
-            cells: Cells::Quads(vec![[0, 1, 2, 3]]),
+        let flat = |corners: [[f64; 2]; 4]| {
+            let points = corners.iter().map(|p| Point::new(p[0], p[1], 3.0)).collect();
+            Mesh::new(points, Cells::Quads(vec![[0, 1, 2, 3]])).unwrap()
         };
         let quality = |corners| scaled_jacobians(&flat(corners)).unwrap()[0];
         assert_eq!(quality([[0., 0.], [4., 0.], [4., 2.], [0., 2.]]), 1.0);
@@ -269,7 +269,7 @@ mod tests {
         assert!((rhombus - 0.75_f64.sqrt()).abs() < 1e-15, "{rhombus}");
         assert!(quality([[0., 0.], [4., 0.], [1., 1.], [0., 4.]]) < -0.5);
         assert_eq!(quality([[0., 0.], [1., 0.], [2., 0.], [1., 2.]]), 0.0);
-        let triangles = Mesh { cells: Cells::Triangles(vec![[0, 1, 2]]), ..flat([[0.; 2]; 4]) };
+        let triangles = Mesh::new(vec![Point::origin(); 3], Cells::Triangles(vec![[0, 1, 2]])).unwrap();
         assert_eq!(scaled_jacobians(&triangles).unwrap_err().kind, ErrorKind::Unsupported);
         assert_eq!(scaled_jacobians(&cube()).unwrap(), [1.0]);
     }
@@ -287,8 +287,8 @@ mod tests {
     #[test]
     fn twisted_faces_have_the_volume_of_the_trilinear_map() {
         let mut mesh = cube();
-        mesh.points[6] = Point::new(1.5, 1.25, 1.75);
-        let Cells::Hexahedra(hexes) = &mesh.cells else { panic!() };
+        mesh.points_mut()[6] = Point::new(1.5, 1.25, 1.75);
+        let Cells::Hexahedra(hexes) = mesh.cells() else { panic!() };
         // By the midpoint rule on a fine grid of the trilinear map.
         let (n, mut sum) = (24, 0.0);
         for i in 0..n * n * n {
@@ -297,7 +297,7 @@ mod tests {
             let slope = Vector3::new(u[1] * u[2], u[0] * u[2], u[0] * u[1]);
             sum += (Matrix3::identity() + bulge * slope.transpose()).determinant();
         }
-        let volume = hexahedron_volume(&mesh.points, &hexes[0]);
+        let volume = hexahedron_volume(mesh.points(), &hexes[0]);
         assert!((volume - sum / f64::from(n * n * n)).abs() < 1e-3, "{volume}");
     }
 }

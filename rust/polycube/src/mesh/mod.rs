@@ -3,12 +3,14 @@
 //! Reading is safe on any input: a malformed file gives an [`Error`] that says where it is wrong,
 //! and never a panic, an endless loop, or memory out of proportion to the size of the file.
 
+mod checked;
 mod compact;
 pub(crate) mod hexahedron;
 mod io;
 mod simplices;
 mod stars;
 
+pub use checked::Mesh;
 pub use io::{
     CellField, FieldValues, Format, Staged, parse_labels, read, read_bytes, read_labels, read_pair, write,
     write_atomically, write_bytes, write_labels,
@@ -81,15 +83,6 @@ pub enum Cells {
     Tetrahedra(Vec<[u32; 4]>),
     /// Volume of hexahedra in VTK's order: bottom counter-clockwise seen from the top, then the top above it.
     Hexahedra(Vec<[u32; 8]>),
-}
-
-/// Vertices and cells. A polycube and the shape it was deformed from are two meshes with the same cells.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Mesh {
-    /// Vertex positions.
-    pub points: Vec<Point>,
-    /// Cells over them.
-    pub cells: Cells,
 }
 
 impl Cells {

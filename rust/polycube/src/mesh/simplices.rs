@@ -179,26 +179,26 @@ mod tests {
     }
 
     fn area_vector(mesh: &Mesh, face: &Face) -> Vector3<f64> {
-        let p: Vec<_> = face.vertices().iter().map(|&v| mesh.points[v as usize].coords).collect();
+        let p: Vec<_> = face.vertices().iter().map(|&v| mesh.points()[v as usize].coords).collect();
         let next = |i: usize| p[(i + 1) % p.len()];
         (0..p.len()).map(|i| p[i].cross(&next(i)) / 2.0).sum()
     }
 
     /// Six times the volume of a closed surface through the divergence theorem, about the origin.
     fn enclosed(mesh: &Mesh, boundary: &[Face]) -> f64 {
-        boundary.iter().map(|f| area_vector(mesh, f).dot(&mesh.points[f.vertices()[0] as usize].coords) / 3.0).sum()
+        boundary.iter().map(|f| area_vector(mesh, f).dot(&mesh.points()[f.vertices()[0] as usize].coords) / 3.0).sum()
     }
 
     #[test]
     fn a_box_has_its_own_boundary_outward() {
         for (mesh, count) in [(hex_box([3, 2, 4]), 52), (tet_box([3, 2, 4]), 104)] {
-            let boundary = mesh.cells.boundary().unwrap();
+            let boundary = mesh.cells().boundary().unwrap();
             assert_eq!(boundary.len(), count);
             assert!((enclosed(&mesh, &boundary) - 24.0).abs() < 1e-12);
         }
         let quads = quad_box([3, 2, 4]);
-        assert_eq!(quads.cells.boundary().unwrap().len(), 52);
-        assert!((enclosed(&quads, &quads.cells.boundary().unwrap()) - 24.0).abs() < 1e-12);
+        assert_eq!(quads.cells().boundary().unwrap().len(), 52);
+        assert!((enclosed(&quads, &quads.cells().boundary().unwrap()) - 24.0).abs() < 1e-12);
     }
 
     #[test]
@@ -218,7 +218,7 @@ mod tests {
     #[test]
     fn triangles_and_tetrahedra_are_borrowed() {
         let mesh = tet_box([1, 1, 1]);
-        let Simplices::Tetrahedra(t) = mesh.cells.simplices() else { panic!("not a volume") };
+        let Simplices::Tetrahedra(t) = mesh.cells().simplices() else { panic!("not a volume") };
         assert!(matches!(t, Cow::Borrowed(_)));
     }
 
@@ -227,17 +227,17 @@ mod tests {
         #[test]
         fn split_hexahedra_conform(seed in any::<u64>()) {
             let mesh = shuffled(&hex_box([3, 2, 2]), seed);
-            let split = tetrahedra(&mesh.cells);
+            let split = tetrahedra(mesh.cells());
             prop_assert_eq!(split.len(), 72);
             for t in &split {
-                let [a, b, c, d] = t.map(|v| mesh.points[v as usize]);
+                let [a, b, c, d] = t.map(|v| mesh.points()[v as usize]);
                 let volume = (b - a).cross(&(c - a)).dot(&(d - a)) / 6.0;
                 prop_assert!((volume - 1.0 / 6.0).abs() < 1e-12);
             }
             let cells = Cells::Tetrahedra(split);
             let mut split: Vec<_> = cells.boundary().unwrap().iter()
                 .map(|f| key([f.vertices()[0], f.vertices()[1], f.vertices()[2]])).collect();
-            let mut quads: Vec<_> = mesh.cells.boundary().unwrap().iter().flat_map(Face::triangles).map(key).collect();
+            let mut quads: Vec<_> = mesh.cells().boundary().unwrap().iter().flat_map(Face::triangles).map(key).collect();
             split.sort_unstable();
             quads.sort_unstable();
             prop_assert_eq!(split, quads);

@@ -137,7 +137,7 @@ pub struct Report {
 /// a missing guide; [`ErrorKind::Mesh`] for coordinates that are not finite or vertices that do not exist;
 /// [`ErrorKind::Cancelled`]. The points are unchanged after an error.
 pub fn optimise(
-    points: &mut Vec<Point>,
+    points: &mut [Point],
     elements: &Elements,
     freedom: &[Freedom],
     guides: &[&dyn Guide],
@@ -152,7 +152,7 @@ pub fn optimise(
     let mut problem = Optimisation::new(&elements, constraints, points.len());
     context.check()?;
     let before = problem.assembly.census(points);
-    let mut moved = points.clone();
+    let mut moved = points.to_vec();
     run(&mut problem, &mut moved, settings, context)?;
     problem.constraints.restore(&mut moved, points);
     let after = problem.assembly.census(&moved);
@@ -166,7 +166,7 @@ pub fn optimise(
         iterations: problem.iterations,
         largest_move: points.iter().zip(&moved).map(|(a, b)| (a - b).norm()).fold(0.0, f64::max),
     };
-    *points = moved;
+    points.copy_from_slice(&moved);
     Ok(report)
 }
 

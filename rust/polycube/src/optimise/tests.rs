@@ -14,8 +14,8 @@ fn block(kind: CellKind, size: i64) -> Mesh {
 
 /// Boundary vertices fixed, others free.
 fn fixed_boundary(mesh: &Mesh) -> Vec<Freedom> {
-    let mut freedom = vec![Freedom::Free; mesh.points.len()];
-    for face in mesh.cells.boundary().unwrap() {
+    let mut freedom = vec![Freedom::Free; mesh.points().len()];
+    for face in mesh.cells().boundary().unwrap() {
         face.vertices().iter().for_each(|v| freedom[*v as usize] = Freedom::Fixed);
     }
     freedom
@@ -24,23 +24,23 @@ fn fixed_boundary(mesh: &Mesh) -> Vec<Freedom> {
 /// Throws all free vertices anywhere into the box `0..size`.
 fn scramble(mesh: &mut Mesh, freedom: &[Freedom], size: f64, seed: u64) {
     let mut rng = SplitMix64::new(seed);
-    for (point, _) in mesh.points.iter_mut().zip(freedom).filter(|(_, f)| **f == Freedom::Free) {
+    for (point, _) in mesh.points_mut().iter_mut().zip(freedom).filter(|(_, f)| **f == Freedom::Free) {
         *point = Point::from([(); 3].map(|()| size * rng.unit()));
     }
 }
 
 fn hexes(mesh: &Mesh) -> &[[u32; 8]] {
-    let Cells::Hexahedra(cells) = &mesh.cells else { panic!("not hexahedra") };
+    let Cells::Hexahedra(cells) = mesh.cells() else { panic!("not hexahedra") };
     cells
 }
 
 fn tets(mesh: &Mesh) -> &[[u32; 4]] {
-    let Cells::Tetrahedra(cells) = &mesh.cells else { panic!("not tetrahedra") };
+    let Cells::Tetrahedra(cells) = mesh.cells() else { panic!("not tetrahedra") };
     cells
 }
 
 fn run(mesh: &mut Mesh, elements: &Elements, freedom: &[Freedom], guides: &[&dyn Guide]) -> Report {
-    optimise(&mut mesh.points, elements, freedom, guides, &Settings::default(), &Context::default()).unwrap()
+    optimise(mesh.points_mut(), elements, freedom, guides, &Settings::default(), &Context::default()).unwrap()
 }
 
 #[test]
@@ -48,14 +48,14 @@ fn scrambled_tetrahedra_are_untangled() {
     for seed in 1..=4 {
         let mut mesh = block(CellKind::Tetrahedra, 6);
         let freedom = fixed_boundary(&mesh);
-        let elements = Elements::tetrahedra_like(tets(&mesh), &mesh.points).unwrap();
-        let rest = mesh.points.clone();
+        let elements = Elements::tetrahedra_like(tets(&mesh), mesh.points()).unwrap();
+        let rest = mesh.points().to_vec();
         scramble(&mut mesh, &freedom, 6.0, seed);
         let report = run(&mut mesh, &elements, &freedom, &[]);
         assert!(report.inverted_before > 100, "{report:?}");
         assert_eq!(report.inverted_after, 0, "seed {seed}: {report:?}");
         assert!(report.worst_after > 0.9, "seed {seed}: {report:?}");
-        let mut still = freedom.iter().zip(rest.iter().zip(&mesh.points));
+        let mut still = freedom.iter().zip(rest.iter().zip(mesh.points()));
         assert!(still.all(|(f, (a, b))| *f == Freedom::Free || a == b));
     }
 }
@@ -65,16 +65,16 @@ fn only_what_is_near_moves_where_little_is_inverted() {
     for kind in [CellKind::Hexahedra, CellKind::Tetrahedra] {
         let mut mesh = block(kind, 12);
         let freedom = fixed_boundary(&mesh);
-        let elements = match &mesh.cells {
+        let elements = match mesh.cells() {
             Cells::Hexahedra(cells) => Elements::cubes(cells),
-            _ => Elements::tetrahedra_like(tets(&mesh), &mesh.points).unwrap(),
+            _ => Elements::tetrahedra_like(tets(&mesh), mesh.points()).unwrap(),
         };
-        let (rest, middle) = (mesh.points.clone(), Point::new(6.0, 6.0, 6.0));
-        mesh.points.iter_mut().filter(|p| **p == middle).for_each(|p| p.x += 1.7);
+        let (rest, middle) = (mesh.points().to_vec(), Point::new(6.0, 6.0, 6.0));
+        mesh.points_mut().iter_mut().filter(|p| **p == middle).for_each(|p| p.x += 1.7);
         let settings = Settings { improve_rounds: 0, polish_rounds: 0, ..Settings::default() };
-        let report = optimise(&mut mesh.points, &elements, &freedom, &[], &settings, &Context::default()).unwrap();
+        let report = optimise(mesh.points_mut(), &elements, &freedom, &[], &settings, &Context::default()).unwrap();
         assert!(report.inverted_before > 0 && report.inverted_after == 0, "{kind}: {report:?}");
-        let far = rest.iter().zip(&mesh.points).filter(|(p, _)| (*p - middle).amax() > 5.0);
+        let far = rest.iter().zip(mesh.points()).filter(|(p, _)| (*p - middle).amax() > 5.0);
         far.for_each(|(before, after)| assert_eq!(before, after));
     }
 }
@@ -97,23 +97,23 @@ fn scrambled_hexahedra_become_cubes_again() {
 #[test]
 fn polycube_coordinates_keep_their_bits() {
     let (mut polycube, shape) = example(Example::SteppedL, 1, CellKind::Tetrahedra).unwrap();
-    let mut fixed = vec![[false; 3]; polycube.points.len()];
-    for face in polycube.cells.boundary().unwrap() {
-        let [a, b, c] = [0, 1, 2].map(|i| polycube.points[face.vertices()[i] as usize]);
+    let mut fixed = vec![[false; 3]; polycube.points().len()];
+    for face in polycube.cells().boundary().unwrap() {
+        let [a, b, c] = [0, 1, 2].map(|i| polycube.points()[face.vertices()[i] as usize]);
         let axis = (b - a).cross(&(c - a)).iamax();
         face.vertices().iter().for_each(|v| fixed[*v as usize][axis] = true);
     }
     let freedom: Vec<_> = fixed.iter().copied().map(Freedom::Axes).collect();
-    let elements = Elements::tetrahedra_like(tets(&polycube), &shape.points).unwrap();
+    let elements = Elements::tetrahedra_like(tets(&polycube), shape.points()).unwrap();
     let mut rng = SplitMix64::new(3);
-    for (p, fixed) in polycube.points.iter_mut().zip(&fixed) {
+    for (p, fixed) in polycube.points_mut().iter_mut().zip(&fixed) {
         (0..3).for_each(|a| p[a] += if fixed[a] { -0.0 } else { 1.5 * rng.unit() - 0.75 });
     }
-    polycube.points[0].coords.iter_mut().filter(|x| **x == 0.0).for_each(|x| *x = -0.0);
-    let start = polycube.points.clone();
+    polycube.points_mut()[0].coords.iter_mut().filter(|x| **x == 0.0).for_each(|x| *x = -0.0);
+    let start = polycube.points().to_vec();
     let report = run(&mut polycube, &elements, &freedom, &[]);
     assert!(report.inverted_before > 100 && report.inverted_after == 0, "{report:?}");
-    for ((before, after), fixed) in start.iter().zip(&polycube.points).zip(&fixed) {
+    for ((before, after), fixed) in start.iter().zip(polycube.points()).zip(&fixed) {
         assert!((0..3).all(|a| !fixed[a] || before[a].to_bits() == after[a].to_bits()));
     }
 }
@@ -131,7 +131,7 @@ impl Guide for Sphere {
 /// A cube of hexahedra about the origin, its surface pushed to the sphere of radius 3 in the worse of ways.
 fn ball() -> (Mesh, Vec<Freedom>) {
     let mut mesh = block(CellKind::Hexahedra, 6);
-    mesh.points.iter_mut().for_each(|p| p.coords.add_scalar_mut(-3.0));
+    mesh.points_mut().iter_mut().for_each(|p| p.coords.add_scalar_mut(-3.0));
     let free = fixed_boundary(&mesh);
     let freedom = free.iter().map(|f| if *f == Freedom::Free { *f } else { Freedom::Guided(0) }).collect();
     (mesh, freedom)
@@ -143,7 +143,7 @@ fn sliding_vertices_end_on_the_sphere() {
     let elements = Elements::cubes(hexes(&mesh));
     let report = run(&mut mesh, &elements, &freedom, &[&Sphere(3.0)]);
     assert!(report.inverted_after == 0 && report.worst_after > 0.25, "{report:?}");
-    for (p, f) in mesh.points.iter().zip(&freedom) {
+    for (p, f) in mesh.points().iter().zip(&freedom) {
         assert!(*f == Freedom::Free || (p.coords.norm() / 3.0 - 1.0).abs() < 1e-12);
     }
 }
@@ -153,17 +153,17 @@ fn sliding_vertices_end_on_the_triangles_and_curves() {
     let (mut mesh, _) = example(Example::CubeSpikes, 0, CellKind::Hexahedra).unwrap();
     let (_, shape) = example(Example::CubeSpikes, 0, CellKind::Triangles).unwrap();
     let (_, volume) = example(Example::CubeSpikes, 0, CellKind::Hexahedra).unwrap();
-    let Cells::Triangles(triangles) = &shape.cells else { panic!("not triangles") };
-    mesh.points = volume.points;
-    let guide = SurfaceGuide::new(&shape.points, triangles).unwrap();
+    let Cells::Triangles(triangles) = shape.cells() else { panic!("not triangles") };
+    mesh.points_mut().copy_from_slice(volume.points());
+    let guide = SurfaceGuide::new(shape.points(), triangles).unwrap();
     let free = fixed_boundary(&mesh);
     let freedom: Vec<_> = free.iter().map(|f| if *f == Freedom::Free { *f } else { Freedom::Guided(0) }).collect();
-    let elements = Elements::boxes_like(hexes(&mesh), &mesh.points, 3).unwrap();
+    let elements = Elements::boxes_like(hexes(&mesh), mesh.points(), 3).unwrap();
     let settings = Settings { improve_rounds: 4, improve_iterations: 8, ..Settings::default() };
     let context = Context::default();
-    let report = optimise(&mut mesh.points, &elements, &freedom, &[&guide], &settings, &context).unwrap();
+    let report = optimise(mesh.points_mut(), &elements, &freedom, &[&guide], &settings, &context).unwrap();
     assert!(report.inverted_after == 0 && report.worst_after >= report.worst_before, "{report:?}");
-    for (p, f) in mesh.points.iter().zip(&freedom) {
+    for (p, f) in mesh.points().iter().zip(&freedom) {
         assert!(*f == Freedom::Free || (guide.contact(p).point - p).norm() < 1e-11);
     }
 }
@@ -174,13 +174,13 @@ fn good_meshes_are_not_worsened() {
         let mut mesh = block(kind, 4);
         let freedom = fixed_boundary(&mesh);
         let start = mesh.clone();
-        let elements = match &mesh.cells {
+        let elements = match mesh.cells() {
             Cells::Hexahedra(c) => Elements::cubes(c),
-            _ => Elements::tetrahedra_like(tets(&mesh), &mesh.points).unwrap(),
+            _ => Elements::tetrahedra_like(tets(&mesh), mesh.points()).unwrap(),
         };
         let report = run(&mut mesh, &elements, &freedom, &[]);
         assert!(report.worst_after >= report.worst_before && report.worst_before > 1.0 - 1e-12, "{report:?}");
-        assert!(start.points.iter().zip(&mesh.points).all(|(a, b)| (a - b).norm() < 1e-6));
+        assert!(start.points().iter().zip(mesh.points()).all(|(a, b)| (a - b).norm() < 1e-6));
     }
 }
 
@@ -190,9 +190,9 @@ fn results_do_not_depend_on_the_number_of_threads() {
         let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().unwrap();
         pool.install(|| {
             let (mut mesh, freedom) = ball();
-            let elements = Elements::boxes_like(hexes(&mesh), &mesh.points, 2).unwrap();
+            let elements = Elements::boxes_like(hexes(&mesh), mesh.points(), 2).unwrap();
             run(&mut mesh, &elements, &freedom, &[&Sphere(3.0)]);
-            mesh.points
+            mesh.points().to_vec()
         })
     };
     let one = result(1);
@@ -212,7 +212,7 @@ fn cancelled_at(last: usize, mesh: &mut Mesh, freedom: &[Freedom]) -> (Result<Re
         }
     });
     slot.set(context.clone()).unwrap();
-    let result = optimise(&mut mesh.points, &elements, freedom, &[&Sphere(3.0)], &Settings::default(), &context);
+    let result = optimise(mesh.points_mut(), &elements, freedom, &[&Sphere(3.0)], &Settings::default(), &context);
     (result, steps.load(Ordering::Relaxed))
 }
 
@@ -239,17 +239,17 @@ fn bad_input_is_an_error_that_names_its_place() {
         optimise(&mut points, &elements, freedom, &[], settings, &Context::default()).unwrap_err()
     };
     let good = Settings::default();
-    let free = vec![Freedom::Free; mesh.points.len()];
-    assert_eq!(attempt(&mesh.points, &free[1..], &good).kind, ErrorKind::Mismatch);
-    assert_eq!(attempt(&mesh.points[..9], &free[..9], &good).kind, ErrorKind::Mesh);
-    assert_eq!(attempt(&mesh.points, &free, &Settings { theta: 1.0, ..good.clone() }).kind, ErrorKind::Option);
+    let free = vec![Freedom::Free; mesh.points().len()];
+    assert_eq!(attempt(mesh.points(), &free[1..], &good).kind, ErrorKind::Mismatch);
+    assert_eq!(attempt(&mesh.points()[..9], &free[..9], &good).kind, ErrorKind::Mesh);
+    assert_eq!(attempt(mesh.points(), &free, &Settings { theta: 1.0, ..good.clone() }).kind, ErrorKind::Option);
     let mut guided = free.clone();
     guided[3] = Freedom::Guided(0);
-    assert_eq!(attempt(&mesh.points, &guided, &good).place, Some(Place::Vertex(3)));
-    let mut points = mesh.points.clone();
+    assert_eq!(attempt(mesh.points(), &guided, &good).place, Some(Place::Vertex(3)));
+    let mut points = mesh.points().to_vec();
     points[7].y = f64::NAN;
     assert_eq!(attempt(&points, &free, &good).place, Some(Place::Vertex(7)));
-    assert!(Elements::boxes_like(&[[99; 8]], &mesh.points, 1).is_err());
+    assert!(Elements::boxes_like(&[[99; 8]], mesh.points(), 1).is_err());
 }
 
 #[test]
@@ -268,7 +268,7 @@ fn thirty_thousand_hexahedra_in_seconds() {
     let mut mesh = block(CellKind::Hexahedra, 31);
     let freedom = fixed_boundary(&mesh);
     let mut rng = SplitMix64::new(1);
-    for (p, _) in mesh.points.iter_mut().zip(&freedom).filter(|(_, f)| **f == Freedom::Free) {
+    for (p, _) in mesh.points_mut().iter_mut().zip(&freedom).filter(|(_, f)| **f == Freedom::Free) {
         (0..3).for_each(|a| p[a] += 2.0 * rng.unit() - 1.0);
     }
     let elements = Elements::cubes(hexes(&mesh));

@@ -82,9 +82,9 @@ pub(crate) fn mesh_volume(
     stages.optimise += optimising.elapsed().as_secs_f64();
     let context = context.stage("mesh", 0.97, 1.0);
     context.tick(0.0)?;
-    quads.mesh.points = remesher.surface_of(&hexes.mesh.points, options.padding);
+    quads.mesh = quads.mesh.with_points(remesher.surface_of(hexes.mesh.points(), options.padding))?;
     context.tick(0.3)?;
-    let layout = remesher.layout(&hexes.mesh.points, options.padding)?;
+    let layout = remesher.layout(hexes.mesh.points(), options.padding)?;
     context.tick(0.7)?;
     let (quality, soundness) = (hexes.quality(), hexes.soundness().worst);
     context.tick(1.0)?;

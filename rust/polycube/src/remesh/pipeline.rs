@@ -164,7 +164,7 @@ fn best(
 fn untangle_volume(simplified: &mut Simplified, input: &Input, context: &Context) -> Result<()> {
     let shape = input.shape.unwrap_or(input.polycube);
     let Simplified { input: polycube, polycube: Some(mesh), report, .. } = simplified else { return Ok(()) };
-    if mesh.cells.is_volume() && !report.flipped.cells.is_empty() {
+    if mesh.cells().is_volume() && !report.flipped.cells.is_empty() {
         untangle_morphed(polycube, mesh, shape, context)?;
     }
     context.tick(1.0)?;

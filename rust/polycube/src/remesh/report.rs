@@ -104,7 +104,7 @@ pub(crate) fn measure(
     let mut report = RemeshReport {
         simplify: simplified.report.clone(),
         spaced: meshed.spaced,
-        quads: meshed.quads.mesh.cells.len(),
+        quads: meshed.quads.mesh.cells().len(),
         inverted_quads: meshed.quads.quality().inverted,
         folded: meshed.folded,
         hexes: found.cells,
@@ -189,8 +189,8 @@ fn count_blocks(hexes: &Hexes, context: &Context) -> Result<usize> {
 
 fn inverted_cells(hexes: &Hexes, quality: &Quality) -> Vec<InvertedCell> {
     let describe = |cell: usize| {
-        let vertices = hexes.mesh.cells.cell(cell);
-        let sum: nalgebra::Vector3<f64> = vertices.iter().map(|&v| hexes.mesh.points[v as usize].coords).sum();
+        let vertices = hexes.mesh.cells().cell(cell);
+        let sum: nalgebra::Vector3<f64> = vertices.iter().map(|&v| hexes.mesh.points()[v as usize].coords).sum();
         InvertedCell { cell, scaled_jacobian: quality.of_cell[cell], at: (sum / vertices.len() as f64).into() }
     };
     quality.inverted_cells().take(MOST_LISTED).map(describe).collect()

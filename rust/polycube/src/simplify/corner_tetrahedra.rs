@@ -22,8 +22,8 @@ impl CornerTetrahedra {
     /// The cells of `mesh`, which shall look as in `shape`. Vertices slide in their facets; those on polycube edges are
     /// held.
     pub(super) fn new(polycube: &Polycube, mesh: &Mesh, shape: &[Point]) -> Self {
-        let mut corners = Self::held(polycube, &mesh.points, shape);
-        match &mesh.cells {
+        let mut corners = Self::held(polycube, mesh.points(), shape);
+        match mesh.cells() {
             Cells::Tetrahedra(cells) => corners.tetrahedra.clone_from(cells),
             Cells::Hexahedra(cells) => corners.tetrahedra = cells.iter().flat_map(corner_tetrahedra).collect(),
             Cells::Triangles(_) | Cells::Quads(_) => corners.lift(polycube),

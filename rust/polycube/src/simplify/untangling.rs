@@ -30,14 +30,14 @@ const SETTINGS: Settings = Settings {
 /// # Errors
 /// [`ErrorKind::Cancelled`](crate::ErrorKind::Cancelled).
 pub(crate) fn untangle_morphed(polycube: &Polycube, mesh: &mut Mesh, shape: &Mesh, context: &Context) -> Result<()> {
-    let mut corners = CornerTetrahedra::new(polycube, mesh, &shape.points);
+    let mut corners = CornerTetrahedra::new(polycube, mesh, shape.points());
     if corners.turned_over().is_empty() {
         return Ok(());
     }
     let elements = Elements::tetrahedra_like(&corners.tetrahedra, &corners.rest)?;
     optimise(&mut corners.points, &elements, &corners.freedom, &[], &SETTINGS, context)?;
     corners.points.truncate(corners.vertices);
-    mesh.points = corners.points;
+    mesh.points_mut().copy_from_slice(&corners.points);
     Ok(())
 }
 
@@ -64,7 +64,7 @@ mod tests {
 
     /// Pushes the vertex in the middle of the facet on top over the next two.
     fn fold(mesh: &mut Mesh) {
-        let middle = mesh.points.iter_mut().find(|p| **p == Point::new(3.0, 3.0, 6.0)).unwrap();
+        let middle = mesh.points_mut().iter_mut().find(|p| **p == Point::new(3.0, 3.0, 6.0)).unwrap();
         middle.x += 2.2;
     }
 
@@ -81,7 +81,7 @@ mod tests {
             for (v, levels) in polycube.vertex_levels.iter().enumerate() {
                 let known = levels.iter().flatten().count();
                 let kept = (0..3).filter(|&a| known > 1 || levels[a].is_some());
-                kept.for_each(|a| assert_eq!(mesh.points[v][a], folded.points[v][a], "{kind}, vertex {v}"));
+                kept.for_each(|a| assert_eq!(mesh.points()[v][a], folded.points()[v][a], "{kind}, vertex {v}"));
             }
         }
     }
@@ -92,7 +92,7 @@ mod tests {
             let (shape, polycube) = cube(kind);
             let mut mesh = shape.clone();
             untangle_morphed(&polycube, &mut mesh, &shape, &Context::default()).unwrap();
-            assert_eq!(mesh.points, shape.points);
+            assert_eq!(mesh.points(), shape.points());
         }
     }
 }

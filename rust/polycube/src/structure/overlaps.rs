@@ -106,15 +106,15 @@ mod tests {
         let end = 3 * count + 1;
         let along_x = (0..count).map(|i| ([0, 3 * i + 1, 0], [end, 3 * i + 2, 4]));
         let along_y = (0..count).map(|i| ([3 * i + 1, 0, 1], [3 * i + 2, end, 3]));
-        let mut all = Mesh { points: Vec::new(), cells: Cells::Quads(Vec::new()) };
+        let (mut points, mut cells) = (Vec::new(), Vec::new());
         for (low, high) in along_x.chain(along_y) {
             let bar = Voxels::from_boxes(&[Cuboid::new(low, high)]).unwrap().mesh(CellKind::Quads, 1e9).unwrap();
-            let first = all.points.len() as u32;
-            all.points.extend(bar.points);
-            let (Cells::Quads(cells), Cells::Quads(own)) = (&mut all.cells, &bar.cells) else { unreachable!() };
+            let first = points.len() as u32;
+            points.extend(bar.points());
+            let Cells::Quads(own) = bar.cells() else { unreachable!() };
             cells.extend(own.iter().map(|c| c.map(|v| v + first)));
         }
-        all
+        Mesh::new(points, Cells::Quads(cells)).unwrap()
     }
 
     #[test]
@@ -122,8 +122,8 @@ mod tests {
         let mesh = crossing_bars(4);
         let polycube = Polycube::new(&mesh, None, &Tolerance::default()).unwrap();
         let overlaps = Overlaps::of(&polycube);
-        let all = overlaps.all(&mesh.points);
-        assert_eq!((all.len(), all.first().cloned()), (overlaps.len(), overlaps.first(&mesh.points)));
+        let all = overlaps.all(mesh.points());
+        assert_eq!((all.len(), all.first().cloned()), (overlaps.len(), overlaps.first(mesh.points())));
         let facet = |face: u32| polycube.facet_of_face[face as usize];
         let pairs: BTreeSet<[u32; 2]> = all
             .iter()

@@ -14,24 +14,17 @@ impl Polycube {
     /// face's normal shall decide, as it does for faces beyond the last label. Whether the surface touches itself is
     /// not checked here but by [`overlaps`](Self::overlaps). O(n log n) for n faces.
     pub fn new(mesh: &Mesh, labels: Option<&[i8]>, tolerance: &Tolerance) -> Result<Self, Vec<Violation>> {
-        check_points(&mesh.points)?;
-        let faces = mesh.cells.boundary().map_err(|e| match e.place {
+        let faces = mesh.cells().boundary().map_err(|e| match e.place {
             Some(crate::Place::Edge(a, b)) => vec![Violation::NonManifoldEdge { edge: [a, b] }],
             Some(crate::Place::Cell(cell)) => vec![Violation::CrowdedCell { cell }],
             _ => vec![Violation::Empty],
         })?;
-        let surface = Surface::new(faces, mesh.points.len())?;
-        let (labels, degrees) = label_faces(&mesh.points, &surface, labels, tolerance)?;
+        let surface = Surface::new(faces, mesh.points().len())?;
+        let (labels, degrees) = label_faces(mesh.points(), &surface, labels, tolerance)?;
         let charts = Charts::new(&surface, labels)?;
         let skeleton = Skeleton::new(&surface, &charts)?;
-        skeleton.into_polycube(&mesh.points, surface, charts, degrees, tolerance)
+        skeleton.into_polycube(mesh.points(), surface, charts, degrees, tolerance)
     }
-}
-
-fn check_points(points: &[Point]) -> Result<(), Vec<Violation>> {
-    let bad = (0..).zip(points).filter(|(_, p)| !p.iter().all(|x| x.is_finite()));
-    let violations: Vec<_> = bad.map(|(vertex, _)| Violation::NotFinite { vertex }).collect();
-    if violations.is_empty() { Ok(()) } else { Err(violations) }
 }
 
 /// The label of every face and the largest angle to its axis, or the faces that have none.

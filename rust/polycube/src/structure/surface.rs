@@ -18,11 +18,11 @@ pub struct Surface {
 }
 
 impl Surface {
-    /// Links `faces` over `vertices` vertices, or lists everything that is not closed, oriented and manifold.
+    /// Links `faces`, which name none but the first `vertices` vertices, or lists everything that is not closed, oriented and manifold.
     ///
     /// O(n) for n faces and vertices.
-    pub fn new(faces: Vec<Face>, vertices: usize) -> Result<Self, Vec<Violation>> {
-        let bad = bad_faces(&faces, vertices);
+    pub(crate) fn new(faces: Vec<Face>, vertices: usize) -> Result<Self, Vec<Violation>> {
+        let bad = bad_faces(&faces);
         if faces.is_empty() {
             return Err(vec![Violation::Empty]);
         }
@@ -174,12 +174,11 @@ fn by_end(spokes: &[Spoke], end: usize, vertices: usize) -> Vec<Spoke> {
     sorted
 }
 
-fn bad_faces(faces: &[Face], vertices: usize) -> Vec<Violation> {
+fn bad_faces(faces: &[Face]) -> Vec<Violation> {
     let repeats = |f: &Face| match *f {
         Face::Triangle([a, b, c]) => a == b || b == c || c == a,
         Face::Quad([a, b, c, d]) => a == b || b == c || c == d || d == a || a == c || b == d,
     };
-    let bad = |f: &Face| repeats(f) || f.vertices().iter().any(|&v| v as usize >= vertices);
     let numbered = (0..).zip(faces);
-    numbered.filter(|(_, f)| bad(f)).map(|(face, _)| Violation::BadFace { face }).collect()
+    numbered.filter(|(_, f)| repeats(f)).map(|(face, _)| Violation::BadFace { face }).collect()
 }

@@ -6,7 +6,7 @@ use std::fmt;
 /// One reason why a mesh is not a polycube.
 ///
 /// The rules, in the order in which they are checked; a later rule is checked only where the earlier ones hold:
-/// 1. there is a boundary, and every coordinate is a finite number;
+/// 1. there is a boundary, and no face of it repeats a vertex;
 /// 2. every mesh edge of the boundary has two faces, which pass it in opposite directions;
 /// 3. the faces around a vertex form one fan;
 /// 4. every face lies within the tolerance of an axis direction (or has a label of its own);
@@ -18,12 +18,7 @@ use std::fmt;
 pub enum Violation {
     /// There is no boundary face.
     Empty,
-    /// A coordinate is NaN or infinite.
-    NotFinite {
-        /// The vertex.
-        vertex: u32,
-    },
-    /// A face that uses a vertex twice or a vertex that does not exist.
+    /// A face that uses a vertex twice.
     BadFace {
         /// The face.
         face: u32,
@@ -130,10 +125,9 @@ impl Violation {
     pub fn place(&self) -> Option<Place> {
         Some(match *self {
             Self::Empty => return None,
-            Self::NotFinite { vertex }
-            | Self::NonManifoldVertex { vertex }
-            | Self::IncompleteCorner { vertex }
-            | Self::OffLevel { vertex, .. } => Place::Vertex(vertex),
+            Self::NonManifoldVertex { vertex } | Self::IncompleteCorner { vertex } | Self::OffLevel { vertex, .. } => {
+                Place::Vertex(vertex)
+            }
             Self::BadFace { face }
             | Self::FlatFace { face }
             | Self::SkewFace { face, .. }
@@ -155,7 +149,6 @@ impl Violation {
     pub fn rule(&self) -> &'static str {
         match self {
             Self::Empty => "empty",
-            Self::NotFinite { .. } => "not_finite",
             Self::BadFace { .. } => "bad_face",
             Self::FlatFace { .. } => "flat_face",
             Self::OpenEdge { .. } => "open_edge",
@@ -181,8 +174,7 @@ impl Violation {
     fn message(&self) -> String {
         match self {
             Self::Empty => "the mesh has no faces".into(),
-            Self::NotFinite { .. } => "a coordinate is not a finite number".into(),
-            Self::BadFace { .. } => "the face repeats a vertex or names one that does not exist".into(),
+            Self::BadFace { .. } => "the face repeats a vertex".into(),
             Self::FlatFace { .. } => "the face has no area, so it looks nowhere".into(),
             Self::OpenEdge { .. } => "the surface is open here: one face only".into(),
             Self::NonManifoldEdge { .. } => "more than two faces meet here".into(),
@@ -213,7 +205,6 @@ impl Violation {
     fn remedy(&self) -> &'static str {
         match self {
             Self::Empty => "give a mesh with triangles, quadrilaterals, tetrahedra or hexahedra",
-            Self::NotFinite { .. } => "export the mesh again",
             Self::BadFace { .. } => "remove the face and close the hole",
             Self::FlatFace { .. } => "give its label in a label file, or collapse it",
             Self::OpenEdge { .. } => "close the hole, or weld vertices that lie at one place",
@@ -247,7 +238,6 @@ impl From<Violation> for Error {
         use Violation as V;
         let kind = match violation {
             V::Empty
-            | V::NotFinite { .. }
             | V::BadFace { .. }
             | V::OpenEdge { .. }
             | V::NonManifoldEdge { .. }

@@ -34,7 +34,7 @@ pub fn simplify(mesh: &Mesh, options: &Options) -> polycube::Result<Simplified> 
 
 /// The bits of every coordinate.
 pub fn bits(mesh: &Mesh) -> Vec<[u64; 3]> {
-    mesh.points.iter().map(|p| [p.x.to_bits(), p.y.to_bits(), p.z.to_bits()]).collect()
+    mesh.points().iter().map(|p| [p.x.to_bits(), p.y.to_bits(), p.z.to_bits()]).collect()
 }
 
 /// How many cases a property is tried on: `few` scaled by `POLYCUBE_CASES` percent.

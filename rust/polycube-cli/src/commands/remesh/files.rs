@@ -23,8 +23,8 @@ impl Formats {
     /// [`ErrorKind::Option`] when a format cannot hold what shall be in it.
     pub fn new(polycube: &Path, extra: Option<Format>, meshes: &MeshFiles) -> Result<Self> {
         let polycube = Format::from_path(polycube)?;
-        if !polycube.holds(meshes.polycube.cells.kind()) {
-            let kind = meshes.polycube.cells.kind();
+        if !polycube.holds(meshes.polycube.cells().kind()) {
+            let kind = meshes.polycube.cells().kind();
             return Err(Error::new(ErrorKind::Option, format!("a .{polycube} file cannot hold {kind}")).into());
         }
         if extra == Some(Format::Stl) {
@@ -78,7 +78,7 @@ pub fn files<'a>(result: &'a Remeshed, formats: &Formats) -> Vec<File<'a>> {
     files.push(file("hexes", Format::Vtu, &hexes.mesh, fields.clone()));
     match extra {
         None | Some(Format::Medit | Format::Vtu) => {}
-        Some(f) if f.holds(hexes.mesh.cells.kind()) => files.push(file("hexes", f, &hexes.mesh, fields)),
+        Some(f) if f.holds(hexes.mesh.cells().kind()) => files.push(file("hexes", f, &hexes.mesh, fields)),
         Some(f) => files.push(file("quads", f, &result.quads.mesh, quad_fields(result, f))),
     }
     files

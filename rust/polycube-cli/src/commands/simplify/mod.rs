@@ -189,7 +189,7 @@ pub fn work(args: &Args, context: &Context) -> Result<Done> {
 /// The format of the result, once it is known that it can hold the mesh.
 fn output_format(args: &Args, meshes: &MeshFiles) -> Result<Format> {
     let format = args.format.map_or_else(|| Format::from_path(&args.mesh.polycube), Ok)?;
-    let kind = meshes.polycube.cells.kind();
+    let kind = meshes.polycube.cells().kind();
     if format.holds(kind) {
         return Ok(format);
     }

@@ -18,12 +18,12 @@ pub struct Hexes {
 
 /// Reads a mesh of hexahedra.
 pub fn read(file: &Path) -> Result<Hexes> {
-    let mesh = mesh::read(file).map_err(Failure::in_reading)?;
-    let kind = mesh.cells.kind();
-    let Cells::Hexahedra(cells) = mesh.cells else {
+    let (points, cells) = mesh::read(file).map_err(Failure::in_reading)?.into_parts();
+    let kind = cells.kind();
+    let Cells::Hexahedra(cells) = cells else {
         let error = Error::new(ErrorKind::Mesh, format!("this is a mesh of {kind}, not of hexahedra"));
         return Err(Failure::in_file(file)(error.remedy("give `--hexes` a mesh of hexahedra")));
     };
-    let quality = cells.iter().map(|hex| scaled_jacobian(&mesh.points, hex)).collect();
-    Ok(Hexes { points: mesh.points, cells, quality })
+    let quality = cells.iter().map(|hex| scaled_jacobian(&points, hex)).collect();
+    Ok(Hexes { points, cells, quality })
 }

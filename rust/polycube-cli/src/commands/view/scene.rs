@@ -70,14 +70,14 @@ impl Scene {
         };
         let shape = meshes.shape.as_ref();
         let polycube = &result.input;
-        let (triangles, facet) = triangles(&surface.cells, polycube);
+        let (triangles, facet) = triangles(surface.cells(), polycube);
         let mut scene = Self {
             up,
             triangles,
             facet,
             labels: polycube.structure.facets.iter().map(|f| f.label.index()).collect(),
             chains: chains(polycube),
-            shape: shape.map(|s| kept.iter().map(|&v| s.points[v as usize]).collect()),
+            shape: shape.map(|s| kept.iter().map(|&v| s.points()[v as usize]).collect()),
             steps: Vec::new(),
             layouts: Vec::new(),
         };
@@ -121,20 +121,20 @@ fn layout(polycube: &Polycube, mesh: &Mesh, placement: &[f64], scale: f64, conte
     let fitted = fit(polycube, mesh, placement, scale, context)?;
     let mut pieces = Pieces::new(&Arrangement::new(&polycube.structure, placement));
     pieces.planes.iter_mut().flatten().for_each(|x| *x /= scale);
-    Ok(Layout { points: fitted.points.iter().map(|p| p / scale).collect(), pieces })
+    Ok(Layout { points: fitted.points().iter().map(|p| p / scale).collect(), pieces })
 }
 
 /// The boundary of a mesh as a mesh of its own, and which vertices it kept.
 fn surface_of(mesh: &Mesh) -> Result<(Mesh, Vec<u32>)> {
     let (mut triangles, mut quads) = (Vec::new(), Vec::new());
-    for face in mesh.cells.boundary()? {
+    for face in mesh.cells().boundary()? {
         match face {
             Face::Triangle(t) => triangles.push(t),
             Face::Quad(q) => quads.push(q),
         }
     }
     let cells = if quads.is_empty() { Cells::Triangles(triangles) } else { Cells::Quads(quads) };
-    Ok(Mesh::of_used(&mesh.points, cells))
+    Mesh::of_used(mesh.points(), cells)
 }
 
 /// The triangles of a surface and their facets.

@@ -34,7 +34,7 @@ pub(super) struct Embedded {
 /// [`optimise`](crate::optimise::optimise()); [`ErrorKind::Cancelled`].
 pub(super) fn embed(charts: &Charts, loops: &LoopSet, context: &Context) -> Result<Embedded> {
     let (mesh, polycube) = Embedding::new(charts, loops).place(&context.stage("embed", 0.0, 0.3))?;
-    let mut refined = Refined::new(&polycube, &mesh.points, &charts.points)?;
+    let mut refined = Refined::new(&polycube, mesh.points(), &charts.points)?;
     let folded = surface_map::unfold(&mut refined, &context.stage("map", 0.3, 1.0))?;
     Ok(Embedded { polycube, refined, folded })
 }
@@ -88,7 +88,7 @@ impl<'a> Embedding<'a> {
         for (point, fixed) in points.iter_mut().zip(&fixed) {
             (0..3).for_each(|a| point[a] = fixed[a].unwrap_or(point[a] * self.levels.scale));
         }
-        let mesh = Mesh { points, cells: Cells::Triangles(self.charts.triangles.clone()) };
+        let mesh = Mesh::new(points, Cells::Triangles(self.charts.triangles.clone()))?;
         let tolerance = Tolerance { merge: 0.0, ..Tolerance::default() };
         let polycube = Polycube::new(&mesh, Some(&self.labels), &tolerance)
             .map_err(|v| Error::new(ErrorKind::Internal, format!("the charts are no polycube: {}", v[0])))?;

@@ -8,14 +8,14 @@ use crate::mesh::{CellKind, Mesh, Simplices};
 use proptest::prelude::*;
 
 fn triangles(mesh: &Mesh) -> Vec<[u32; 3]> {
-    match mesh.cells.simplices() {
+    match mesh.cells().simplices() {
         Simplices::Triangles(t) => t.into_owned(),
         Simplices::Tetrahedra(_) => panic!("a surface was made"),
     }
 }
 
 fn loops_of(mesh: &Mesh, options: &LoopOptions) -> LoopSet {
-    loops(&mesh.points, &triangles(mesh), options, &Context::default()).expect("there are loops")
+    loops(mesh.points(), &triangles(mesh), options, &Context::default()).expect("there are loops")
 }
 
 fn check_set(set: &LoopSet) {
@@ -33,7 +33,7 @@ fn deformed(voxels: &Voxels, seed: u64, step: f64) -> Mesh {
         Deformation::Twist { center, axis: rng.below(3) as usize, rate: 0.8 * rng.unit() / extent },
         Deformation::Bend { center, along: 0, towards: 2, curvature: (0.1 + 0.6 * rng.unit()) / extent },
     ];
-    for p in &mut mesh.points {
+    for p in mesh.points_mut() {
         *p = maps.iter().fold(*p, |p, map| map.apply(p));
     }
     mesh
@@ -61,8 +61,8 @@ fn plates_of_genus_0_to_12_are_valid_after_every_step() {
     for holes in [0, 1, 2, 5, 12] {
         let mesh = deformed(&plate(holes), holes as u64, 0.25);
         let triangles = triangles(&mesh);
-        let values = Field::new(&mesh.points, &triangles).solve(0.5, 0.0, &Context::default()).unwrap();
-        let begun = start(&mesh.points, &values, &triangles, 24, &Context::default()).unwrap();
+        let values = Field::new(mesh.points(), &triangles).solve(0.5, 0.0, &Context::default()).unwrap();
+        let begun = start(mesh.points(), &values, &triangles, 24, &Context::default()).unwrap();
         assert_eq!(begun.fault, None, "genus {holes}");
         check(&begun.mesh, |cut| begun.alive[cut as usize]);
         let arrangement = Arrangement::new(&begun.mesh, &begun.alive);
@@ -127,7 +127,7 @@ fn a_cancelled_search_stops() {
     let (_, shape) = example(Example::Ring, 1, CellKind::Triangles).unwrap();
     let context = Context::default();
     context.cancel();
-    let stopped = loops(&shape.points, &triangles(&shape), &LoopOptions::default(), &context);
+    let stopped = loops(shape.points(), &triangles(&shape), &LoopOptions::default(), &context);
     assert_eq!(stopped.unwrap_err().kind, ErrorKind::Cancelled);
 }
 

@@ -109,19 +109,19 @@ pub(super) fn write(mesh: &Mesh, fields: &[CellField]) -> Vec<u8> {
     });
     let mut text = Text::default();
     text.put("MeshVersionFormatted 2\nDimension 3\nVertices\n");
-    text.put(mesh.points.len()).end();
-    for point in &mesh.points {
+    text.put(mesh.points().len()).end();
+    for point in mesh.points() {
         text.point(point).put(" 0").end();
     }
-    text.put(match mesh.cells {
+    text.put(match mesh.cells() {
         Cells::Triangles(_) => "Triangles\n",
         Cells::Quads(_) => "Quadrilaterals\n",
         Cells::Tetrahedra(_) => "Tetrahedra\n",
         Cells::Hexahedra(_) => "Hexahedra\n",
     });
-    text.put(mesh.cells.len()).end();
-    for i in 0..mesh.cells.len() {
-        for &vertex in mesh.cells.cell(i) {
+    text.put(mesh.cells().len()).end();
+    for i in 0..mesh.cells().len() {
+        for &vertex in mesh.cells().cell(i) {
             text.put(u64::from(vertex) + 1).put(' ');
         }
         text.put(references.map_or(0, |r| r[i])).end();

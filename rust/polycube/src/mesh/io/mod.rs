@@ -33,8 +33,8 @@ pub use format::Format;
 pub use labels::{parse_labels, read_labels, write_labels};
 pub use pair::read_pair;
 
-use super::{Mesh, Point};
-use crate::error::{Error, ErrorKind, Place, Result};
+use super::Mesh;
+use crate::error::{Error, ErrorKind, Result};
 use std::path::Path;
 
 /// Reads a mesh from a file whose extension tells the format.
@@ -50,8 +50,8 @@ use std::path::Path;
 /// # let file = folder.path().join("square.obj");
 /// # std::fs::write(&file, "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nf 1 2 3 4\n").unwrap();
 /// let square = mesh::read(&file)?;
-/// assert_eq!((square.points.len(), square.cells.kind()), (4, CellKind::Quads));
-/// assert_eq!(square.cells, Cells::Quads(vec![[0, 1, 2, 3]]));
+/// assert_eq!((square.points().len(), square.cells().kind()), (4, CellKind::Quads));
+/// assert_eq!(*square.cells(), Cells::Quads(vec![[0, 1, 2, 3]]));
 /// # Ok::<(), polycube::Error>(())
 /// ```
 ///
@@ -121,7 +121,7 @@ pub fn read_bytes(format: Format, bytes: &[u8]) -> Result<Mesh> {
 /// # let folder = tempfile::tempdir().unwrap();
 /// # let file = folder.path().join("ring.vtu");
 /// let (cube, _) = example(Example::Ring, 1, CellKind::Quads)?;
-/// let number = FieldValues::Integer((0..).take(cube.cells.len()).collect());
+/// let number = FieldValues::Integer((0..).take(cube.cells().len()).collect());
 /// mesh::write(&file, &cube, &[CellField { name: "number".into(), values: number }])?;
 /// assert_eq!(mesh::read(&file)?, cube);
 /// # Ok::<(), polycube::Error>(())
@@ -139,14 +139,15 @@ pub fn write(path: &Path, mesh: &Mesh, fields: &[CellField]) -> Result<()> {
 /// Coordinates read back as the very same numbers, except from STL, which holds single precision only.
 ///
 /// # Errors
-/// [`ErrorKind::Unsupported`] when the format cannot hold the cells; [`ErrorKind::Mesh`] when there are none,
-/// a coordinate is not finite or a cell names a vertex that is not there; [`ErrorKind::Option`] when a
-/// field has not one value per cell, or a name that is empty, taken, or has other characters than
-/// letters, digits and `_ - . :`.
+/// [`ErrorKind::Unsupported`] when the format cannot hold the cells; [`ErrorKind::Mesh`] when there are none;
+/// [`ErrorKind::Option`] when a field has not one value per cell, or a name that is empty, taken, or has other
+/// characters than letters, digits and `_ - . :`.
 pub fn write_bytes(format: Format, mesh: &Mesh, fields: &[CellField]) -> Result<Vec<u8>> {
-    format.require(mesh.cells.kind())?;
-    check_mesh(mesh)?;
-    field::check_fields(fields, mesh.cells.len())?;
+    format.require(mesh.cells().kind())?;
+    if mesh.cells().is_empty() {
+        return Err(Error::new(ErrorKind::Mesh, "a mesh without cells cannot be written"));
+    }
+    field::check_fields(fields, mesh.cells().len())?;
     match format {
         Format::Obj => Ok(obj::write(mesh)),
         Format::Off => Ok(off::write(mesh)),
@@ -156,35 +157,4 @@ pub fn write_bytes(format: Format, mesh: &Mesh, fields: &[CellField]) -> Result<
         Format::Vtk => Ok(vtk::write(mesh, fields)),
         Format::Vtu => Ok(vtu::write(mesh, fields)),
     }
-}
-
-/// Refuses coordinates that are not finite, and more points than indices can name.
-fn check_points(points: &[Point]) -> Result<()> {
-    if u32::try_from(points.len()).is_err() {
-        let message = "more vertices than 32-bit indices can name";
-        return Err(Error::new(ErrorKind::Unsupported, message));
-    }
-    let bad = points.iter().position(|p| p.iter().any(|x| !x.is_finite()));
-    let Some(i) = bad else { return Ok(()) };
-    let vertex = u32::try_from(i).unwrap_or(u32::MAX);
-    Err(Error::new(ErrorKind::Mesh, "a coordinate is not a finite number")
-        .at(Place::Vertex(vertex))
-        .remedy("repair or remove the vertex and export the mesh again"))
-}
-
-/// Refuses a mesh that could not be read back.
-fn check_mesh(mesh: &Mesh) -> Result<()> {
-    check_points(&mesh.points)?;
-    if mesh.cells.is_empty() {
-        return Err(Error::new(ErrorKind::Mesh, "a mesh without cells cannot be written"));
-    }
-    for i in 0..mesh.cells.len() {
-        let bad = mesh.cells.cell(i).iter().find(|&&v| v as usize >= mesh.points.len());
-        if let Some(vertex) = bad {
-            let message = format!("vertex {vertex} does not exist");
-            let place = Place::Cell(u32::try_from(i).unwrap_or(u32::MAX));
-            return Err(Error::new(ErrorKind::Mesh, message).at(place));
-        }
-    }
-    Ok(())
 }

@@ -104,11 +104,11 @@ fn continues(text: &[u8]) -> bool {
 /// Writes a surface.
 pub(super) fn write(mesh: &Mesh) -> Vec<u8> {
     let mut text = Text::default();
-    for point in &mesh.points {
+    for point in mesh.points() {
         text.put("v ").point(point).end();
     }
-    for i in 0..mesh.cells.len() {
-        text.put('f').indices(mesh.cells.cell(i), 1).end();
+    for i in 0..mesh.cells().len() {
+        text.put('f').indices(mesh.cells().cell(i), 1).end();
     }
     text.into_bytes()
 }

@@ -53,13 +53,13 @@ fn header(scanner: &mut Scanner) -> Result<bool> {
 /// Writes a surface.
 pub(super) fn write(mesh: &Mesh) -> Vec<u8> {
     let mut text = Text::default();
-    let (vertices, faces) = (mesh.points.len(), mesh.cells.len());
+    let (vertices, faces) = (mesh.points().len(), mesh.cells().len());
     text.put(format_args!("OFF\n{vertices} {faces} 0")).end();
-    for point in &mesh.points {
+    for point in mesh.points() {
         text.point(point).end();
     }
     for i in 0..faces {
-        let corners = mesh.cells.cell(i);
+        let corners = mesh.cells().cell(i);
         text.put(corners.len()).indices(corners, 0).end();
     }
     text.into_bytes()

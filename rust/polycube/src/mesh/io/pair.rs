@@ -30,12 +30,12 @@ pub fn read_pair(polycube: &Path, shape: &Path) -> Result<(Mesh, Mesh)> {
 }
 
 fn compare(polycube: &Mesh, shape: &Mesh) -> Result<()> {
-    let (a, b) = (&polycube.cells, &shape.cells);
+    let (a, b) = (polycube.cells(), shape.cells());
     if a.kind() != b.kind() {
         let (a, b) = (a.kind(), b.kind());
         return Err(mismatch(format!("the polycube has {a}, the shape {b}")));
     }
-    let (n, m) = (polycube.points.len(), shape.points.len());
+    let (n, m) = (polycube.points().len(), shape.points().len());
     if n != m {
         return Err(mismatch(format!("the polycube has {n} vertices, the shape {m}")));
     }

@@ -137,9 +137,9 @@ impl Body<'_> {
 pub(super) fn write(mesh: &Mesh, fields: &[CellField]) -> Vec<u8> {
     let mut text = Text::default();
     text.put("ply\nformat binary_little_endian 1.0\nelement vertex ");
-    text.put(mesh.points.len()).end();
+    text.put(mesh.points().len()).end();
     text.put("property double x\nproperty double y\nproperty double z\nelement face ");
-    text.put(mesh.cells.len()).end();
+    text.put(mesh.cells().len()).end();
     text.put("property list uchar uint vertex_indices").end();
     for field in fields {
         let kind = match field.values {
@@ -151,10 +151,10 @@ pub(super) fn write(mesh: &Mesh, fields: &[CellField]) -> Vec<u8> {
     }
     text.put("end_header").end();
     let mut bytes = text.into_bytes();
-    let coordinates = mesh.points.iter().flat_map(|p| p.iter());
+    let coordinates = mesh.points().iter().flat_map(|p| p.iter());
     bytes.extend(coordinates.flat_map(|x| x.to_le_bytes()));
-    for i in 0..mesh.cells.len() {
-        let corners = mesh.cells.cell(i);
+    for i in 0..mesh.cells().len() {
+        let corners = mesh.cells().cell(i);
         bytes.push(corners.len() as u8);
         bytes.extend(corners.iter().flat_map(|v| v.to_le_bytes()));
         for field in fields {

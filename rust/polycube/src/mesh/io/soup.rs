@@ -1,7 +1,7 @@
 //! What a file holds, before one kind of cell is chosen for the mesh.
 
-use super::check_points;
 use crate::error::{Error, ErrorKind, Place, Result};
+use crate::mesh::checked::check_points;
 use crate::mesh::{Cells, Mesh, Point};
 
 #[derive(Clone, Copy, PartialEq, Eq)]
@@ -96,8 +96,7 @@ impl Soup {
             (true, false) => Cells::Hexahedra(hexahedra),
             (true, true) => self.surface(),
         };
-        let points = self.points;
-        Ok(Mesh { points, cells })
+        Mesh::new(self.points, cells)
     }
 
     fn surface(&self) -> Cells {

@@ -1,9 +1,9 @@
 //! STL: loose triangles in single precision, whose corners are welded where they coincide exactly.
 
-use super::check_points;
 use super::scalar::{Endian, Scalar};
 use super::scan::Scanner;
 use crate::error::{Error, ErrorKind, Place, Result};
+use crate::mesh::checked::check_points;
 use crate::mesh::{Cells, Mesh, Point};
 use std::collections::HashMap;
 
@@ -16,7 +16,7 @@ const FACET: usize = 50;
 pub(super) fn read(bytes: &[u8]) -> Result<Mesh> {
     let corners = corners(bytes)?;
     let (triangles, firsts) = weld(corners.len(), |i| key(&corners[i]))?;
-    Ok(select(&corners, &triangles, &firsts))
+    select(&corners, &triangles, &firsts)
 }
 
 /// Joins the corners of two files with the same triangles; two corners are one vertex where both files
@@ -30,11 +30,11 @@ pub(super) fn pair(polycube: &[Point], shape: &[Point]) -> Result<(Mesh, Mesh)> 
     }
     let (triangles, firsts) = weld(polycube.len(), |i| (key(&polycube[i]), key(&shape[i])))?;
     let select = |corners: &[Point]| select(corners, &triangles, &firsts);
-    Ok((select(polycube), select(shape)))
+    Ok((select(polycube)?, select(shape)?))
 }
 
-fn select(corners: &[Point], triangles: &[[u32; 3]], firsts: &[usize]) -> Mesh {
-    Mesh { points: firsts.iter().map(|&i| corners[i]).collect(), cells: Cells::Triangles(triangles.to_vec()) }
+fn select(corners: &[Point], triangles: &[[u32; 3]], firsts: &[usize]) -> Result<Mesh> {
+    Mesh::new(firsts.iter().map(|&i| corners[i]).collect(), Cells::Triangles(triangles.to_vec()))
 }
 
 /// The bits of a point; zero and minus zero are the same place.
@@ -128,9 +128,9 @@ fn ascii(bytes: &[u8]) -> Result<Vec<Point>> {
 
 /// Writes a binary file.
 pub(super) fn write(mesh: &Mesh) -> Result<Vec<u8>> {
-    let count = u32::try_from(mesh.cells.len());
+    let count = u32::try_from(mesh.cells().len());
     let count = count.map_err(|_| Error::new(ErrorKind::Unsupported, "too many triangles for STL"))?;
-    for (i, point) in mesh.points.iter().enumerate() {
+    for (i, point) in mesh.points().iter().enumerate() {
         if point.iter().any(|&x| !(x as f32).is_finite()) {
             let message = "a coordinate beyond the single precision of STL";
             let place = Place::Vertex(u32::try_from(i).unwrap_or(u32::MAX));
@@ -142,8 +142,8 @@ pub(super) fn write(mesh: &Mesh) -> Result<Vec<u8>> {
     let mut bytes = vec![b' '; HEADER - 4];
     bytes[..8].copy_from_slice(b"polycube");
     bytes.extend(count.to_le_bytes());
-    for i in 0..mesh.cells.len() {
-        let corners: Vec<_> = mesh.cells.cell(i).iter().map(|&v| mesh.points[v as usize]).collect();
+    for i in 0..mesh.cells().len() {
+        let corners: Vec<_> = mesh.cells().cell(i).iter().map(|&v| mesh.points()[v as usize]).collect();
         let normal = (corners[1] - corners[0]).cross(&(corners[2] - corners[0]));
         let normal = normal.try_normalize(0.0).unwrap_or_default();
         let numbers = normal.iter().chain(corners.iter().flat_map(|c| c.iter()));

@@ -201,19 +201,19 @@ impl<'a> Reader<'a> {
 pub(super) fn write(mesh: &Mesh, fields: &[CellField]) -> Vec<u8> {
     let mut text = Text::default();
     text.put("# vtk DataFile Version 3.0\npolycube\nASCII\nDATASET UNSTRUCTURED_GRID\nPOINTS ");
-    text.put(mesh.points.len()).put(" double").end();
-    for point in &mesh.points {
+    text.put(mesh.points().len()).put(" double").end();
+    for point in mesh.points() {
         text.point(point).end();
     }
-    let cells = mesh.cells.len();
-    let width = mesh.cells.cell(0).len();
+    let cells = mesh.cells().len();
+    let width = mesh.cells().cell(0).len();
     text.put(format_args!("CELLS {cells} {}", cells * (width + 1))).end();
     for i in 0..cells {
-        text.put(width).indices(mesh.cells.cell(i), 0).end();
+        text.put(width).indices(mesh.cells().cell(i), 0).end();
     }
     text.put(format_args!("CELL_TYPES {cells}")).end();
     for _ in 0..cells {
-        text.put(number_of(mesh.cells.kind())).end();
+        text.put(number_of(mesh.cells().kind())).end();
     }
     if !fields.is_empty() {
         text.put(format_args!("CELL_DATA {cells}")).end();

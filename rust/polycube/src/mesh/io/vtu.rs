@@ -77,21 +77,21 @@ fn array<'a>(piece: &Node<'a, 'a>, parent: &str, name: Option<&str>) -> Result<N
 /// Writes one piece with inline base64 data, and the fields as data of the cells.
 pub(super) fn write(mesh: &Mesh, fields: &[CellField]) -> Vec<u8> {
     let mut text = Text::default();
-    let (n, m) = (mesh.points.len(), mesh.cells.len());
+    let (n, m) = (mesh.points().len(), mesh.cells().len());
     text.put("<?xml version=\"1.0\"?>\n");
     text.put("<VTKFile type=\"UnstructuredGrid\" version=\"1.0\" ");
     text.put("byte_order=\"LittleEndian\" header_type=\"UInt64\">\n<UnstructuredGrid>\n");
     text.put(format_args!("<Piece NumberOfPoints=\"{n}\" NumberOfCells=\"{m}\">\n<Points>\n"));
-    let coordinates = mesh.points.iter().flat_map(|p| p.iter());
+    let coordinates = mesh.points().iter().flat_map(|p| p.iter());
     let three = "Name=\"Points\" NumberOfComponents=\"3\"";
     write_array(&mut text, "Float64", three, coordinates.flat_map(|x| x.to_le_bytes()));
     text.put("</Points>\n<Cells>\n");
-    let cells = (0..m).map(|i| mesh.cells.cell(i));
+    let cells = (0..m).map(|i| mesh.cells().cell(i));
     let corners = cells.clone().flatten().map(|&v| i64::from(v));
     write_array(&mut text, "Int64", "Name=\"connectivity\"", corners.flat_map(i64::to_le_bytes));
     let ends = cells.enumerate().map(|(i, c)| ((i + 1) * c.len()) as i64);
     write_array(&mut text, "Int64", "Name=\"offsets\"", ends.flat_map(i64::to_le_bytes));
-    let types = std::iter::repeat_n(number_of(mesh.cells.kind()), m);
+    let types = std::iter::repeat_n(number_of(mesh.cells().kind()), m);
     write_array(&mut text, "UInt8", "Name=\"types\"", types);
     text.put("</Cells>\n<CellData>\n");
     for field in fields {

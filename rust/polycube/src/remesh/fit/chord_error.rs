@@ -72,8 +72,8 @@ impl Fitting<'_> {
         }
         context.check()?;
         let around = self.around();
-        let faces = self.hexes.mesh.cells.boundary()?;
-        let start = self.hexes.mesh.points.clone();
+        let faces = self.hexes.mesh.cells().boundary()?;
+        let start = self.hexes.mesh.points().to_vec();
         let mut held = self.freedom.clone();
         let mut pull = Pull::Bold;
         let mut found = self.distant_points(&faces, samples, bound, context)?;
@@ -84,7 +84,7 @@ impl Fitting<'_> {
         for round in 0..ROUNDS {
             let Some(farthest) = found.first().map(|g| g.distance).filter(|d| *d > bound) else { return Ok(0.0) };
             let [from, to] = [round, round + 1].map(|r| r as f64 / ROUNDS as f64);
-            let before = (self.hexes.mesh.points.clone(), held.clone());
+            let before = (self.hexes.mesh.points().to_vec(), held.clone());
             self.pull_all(&found, ON * bound, pull, &around, &mut held);
             context.check()?;
             self.resize()?;
@@ -99,14 +99,15 @@ impl Fitting<'_> {
             }
             // Reached by hexahedra that are poor but not inverted, it is no better reached more gently.
             let is_vain = left.is_empty() && reached > 0.0;
-            (self.hexes.mesh.points, held) = before;
+            self.hexes.mesh.points_mut().copy_from_slice(&before.0);
+            held = before.1;
             let Some(next) = pull.next().filter(|_| !is_vain) else { break };
             pull = next;
         }
         if found.first().is_none_or(|g| g.distance <= bound) {
             return Ok(0.0);
         }
-        self.hexes.mesh.points = start;
+        self.hexes.mesh.points_mut().copy_from_slice(&start);
         Ok(far)
     }
 
@@ -148,7 +149,7 @@ impl Fitting<'_> {
     ) -> bool {
         let DistantPoint { at, face, .. } = distant;
         let mut corners: Vec<u32> = face.vertices().to_vec();
-        let distance = |v: u32| (self.hexes.mesh.points[v as usize] - at).norm();
+        let distance = |v: u32| (self.hexes.mesh.points()[v as usize] - at).norm();
         corners.sort_by(|a, b| distance(*a).total_cmp(&distance(*b)));
         let guide = |v: u32| match self.freedom[v as usize] {
             Freedom::Guided(g) => {
@@ -157,15 +158,15 @@ impl Fitting<'_> {
             _ => None,
         };
         let Some((v, guide)) = corners.into_iter().find_map(|v| Some((v as usize, guide(v)?))) else { return false };
-        let (from, least) = (self.hexes.mesh.points[v], KEPT_AROUND * self.worst_of(around.of(v)));
+        let (from, least) = (self.hexes.mesh.points()[v], KEPT_AROUND * self.worst_of(around.of(v)));
         for &part in pull.parts() {
-            self.hexes.mesh.points[v] = guide.contact(&from.lerp(at, part)).point;
+            self.hexes.mesh.points_mut()[v] = guide.contact(&from.lerp(at, part)).point;
             if pull != Pull::Careful || self.worst_of(around.of(v)) > least {
                 held[v] = Freedom::Fixed;
                 return true;
             }
         }
-        self.hexes.mesh.points[v] = from;
+        self.hexes.mesh.points_mut()[v] = from;
         false
     }
 
@@ -176,6 +177,6 @@ impl Fitting<'_> {
 
     fn worst_of(&self, cells: &[u32]) -> f64 {
         let (all, mean) = (self.hexes.cells(), self.elements.mean_determinant());
-        cells.iter().map(|&c| soundness(&self.hexes.mesh.points, &all[c as usize], mean)).fold(1.0, f64::min)
+        cells.iter().map(|&c| soundness(self.hexes.mesh.points(), &all[c as usize], mean)).fold(1.0, f64::min)
     }
 }

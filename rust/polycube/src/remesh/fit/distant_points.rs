@@ -65,7 +65,7 @@ pub(crate) fn distant_points(
 /// what is near one is near the shape.
 fn bulge(mesh: &Mesh, face: &Face, shape: &dyn Guide, bound: f64) -> Option<DistantPoint> {
     let corners = face.vertices();
-    let away = |p: &Point| corners.iter().all(|&v| (mesh.points[v as usize] - p).norm() > bound);
+    let away = |p: &Point| corners.iter().all(|&v| (mesh.points()[v as usize] - p).norm() > bound);
     let distant = |p: Point| {
         let at = shape.contact(&p).point;
         DistantPoint { at, distance: (p - at).norm(), face: *face }

@@ -36,7 +36,7 @@ impl Fitting<'_> {
     /// Puts every surface vertex on what it slides on.
     pub(crate) fn project(&mut self) {
         let guides = &self.guides;
-        let each = self.hexes.mesh.points.par_iter_mut().zip(&self.freedom).with_min_len(256);
+        let each = self.hexes.mesh.points_mut().par_iter_mut().zip(&self.freedom).with_min_len(256);
         each.for_each(|(point, freedom)| {
             if let Freedom::Guided(g) = freedom {
                 *point = guides[*g as usize].contact(point).point;
@@ -46,7 +46,7 @@ impl Fitting<'_> {
 
     /// One optimisation; how many hexahedra are inverted after it.
     pub(crate) fn run(&mut self, freedom: &[Freedom], settings: &Settings, context: &Context) -> Result<usize> {
-        let points = &mut self.hexes.mesh.points;
+        let points = self.hexes.mesh.points_mut();
         Ok(optimise(points, &self.elements, freedom, &self.guides, settings, context)?.inverted_after)
     }
 
@@ -54,11 +54,11 @@ impl Fitting<'_> {
     pub(crate) fn release(&mut self, bar: f64, may: impl Fn(&Sliding, Carrier, &Point) -> bool) {
         let Hexes { mesh, carriers, .. } = &*self.hexes;
         let mean = self.elements.mean_determinant();
-        let bad = self.hexes.cells().iter().filter(|c| soundness(&mesh.points, c, mean) <= bar);
+        let bad = self.hexes.cells().iter().filter(|c| soundness(mesh.points(), c, mean) <= bar);
         for v in bad.flatten().map(|&v| v as usize) {
             let bound = matches!(carriers[v], Carrier::Corner(_) | Carrier::Edge(_));
             let free = self.freedom[v] == self.sliding.released();
-            if bound && !free && may(self.sliding, carriers[v], &mesh.points[v]) {
+            if bound && !free && may(self.sliding, carriers[v], &mesh.points()[v]) {
                 self.freedom[v] = self.sliding.released();
                 self.released += 1;
             }
@@ -72,7 +72,7 @@ impl Fitting<'_> {
 
     /// Asks for boxes of the sizes that the hexahedra have by now.
     pub(crate) fn resize(&mut self) -> Result<()> {
-        let (cells, points) = (self.hexes.cells(), &self.hexes.mesh.points);
+        let (cells, points) = (self.hexes.cells(), self.hexes.mesh.points());
         // What is tangled is best untangled towards what it is; only then it makes sense to ask for fair sizes.
         let tangled = self.hexes.quality().inverted > 0;
         let like = if tangled { Elements::boxes_like } else { Elements::fair_boxes_like };

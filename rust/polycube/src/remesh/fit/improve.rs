@@ -56,8 +56,8 @@ pub(crate) fn improve(
     context: &Context,
 ) -> Result<Improved> {
     let sliding = Sliding::new(polycube, shape, &context.stage("untangle", 0.0, 0.0))?;
-    let elements = Elements::fair_boxes_like(hexes.cells(), &hexes.mesh.points, SMOOTHING)?;
-    let start = hexes.mesh.points.clone();
+    let elements = Elements::fair_boxes_like(hexes.cells(), hexes.mesh.points(), SMOOTHING)?;
+    let start = hexes.mesh.points().to_vec();
     context.stage("untangle", 0.0, 0.0).tick(0.0)?;
     let freedom = sliding.freedoms(&hexes.carriers, Hold::Corners);
     let mut fitting = Fitting { elements, guides: sliding.guides(), sliding: &sliding, hexes, freedom, released: 0 };
@@ -67,7 +67,7 @@ pub(crate) fn improve(
         fitting.elements = Elements::boxes_like(fitting.hexes.cells(), &start, SMOOTHING)?;
         fitting.freedom = sliding.freedoms(&fitting.hexes.carriers, Hold::Corners);
         fitting.released = 0;
-        fitting.hexes.mesh.points = start;
+        fitting.hexes.mesh.points_mut().copy_from_slice(&start);
         fitting.untangle(settings, true, &context.stage("untangle", 0.2, 0.4))?;
     }
     if aim == Aim::Trial && fitting.is_hopeless() {
@@ -129,7 +129,7 @@ impl Fitting<'_> {
             context.tick(from)?;
             let before = self.released;
             self.release(POOR, Sliding::is_smooth);
-            let points = &mut self.hexes.mesh.points;
+            let points = self.hexes.mesh.points_mut();
             let context = context.stage("optimise", from, to);
             let done = optimise(points, &self.elements, &self.freedom, &self.guides, &settings, &context)?;
             let gain = done.worst_after - done.worst_before + done.average_after - done.average_before;

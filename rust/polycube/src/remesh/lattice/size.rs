@@ -73,7 +73,7 @@ pub fn scale_for(input: &Input, simplified: &Simplified, size: Size, padding: us
         Size::Scale(scale) => Ok(scale),
         Size::EdgeLength(length) => {
             let shape = input.shape.unwrap_or(input.polycube);
-            let stretch = (area(simplified, &shape.points) / area(simplified, &input.polycube.points)).sqrt();
+            let stretch = (area(simplified, shape.points()) / area(simplified, input.polycube.points())).sqrt();
             Ok(stretch / length)
         }
         Size::Hexes(count) => {

@@ -36,7 +36,7 @@ impl LatticeMap {
     /// The same map onto a lattice with other levels in the same order: points between levels move in proportion.
     pub(crate) fn on_levels(&self, levels: Vec<i64>) -> Self {
         let mut mesh = self.mesh.clone();
-        LevelInterpolation::new(self.structure(), &self.levels, &levels).move_all(&mut mesh.points);
+        LevelInterpolation::new(self.structure(), &self.levels, &levels).move_all(mesh.points_mut());
         Self { polycube: Arc::clone(&self.polycube), mesh, levels }
     }
 }

@@ -64,8 +64,9 @@ impl Refined {
     }
 
     /// The surface as a mesh on the lattice and on the shape.
-    pub(crate) fn meshes(&self) -> [Mesh; 2] {
-        [&self.points, &self.shape].map(|p| Mesh { points: p.clone(), cells: Cells::Triangles(self.triangles.clone()) })
+    pub(crate) fn meshes(&self) -> Result<[Mesh; 2]> {
+        let mesh = |points: &[Point]| Mesh::new(points.to_vec(), Cells::Triangles(self.triangles.clone()));
+        Ok([mesh(&self.points)?, mesh(&self.shape)?])
     }
 
     /// Cuts the edges that `cut` chooses, by facet and ends, in the middle.

@@ -18,8 +18,8 @@ pub(crate) struct VolumeMap<'a> {
 impl<'a> VolumeMap<'a> {
     /// Indexes the tetrahedra of `polycube`; nothing for a surface. O(n log n).
     pub(crate) fn new(polycube: &'a Mesh, to: &'a [Point]) -> Option<Self> {
-        let Simplices::Tetrahedra(tetrahedra) = polycube.cells.simplices() else { return None };
-        let from = &polycube.points;
+        let Simplices::Tetrahedra(tetrahedra) = polycube.cells().simplices() else { return None };
+        let from = polycube.points();
         let boxes = (0..).zip(tetrahedra.iter()).map(|(i, t)| {
             let (low, high) = bounds(&corners(from, t));
             (low, high, i)

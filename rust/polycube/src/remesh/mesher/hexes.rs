@@ -34,7 +34,7 @@ pub struct Hexes {
 impl Hexes {
     /// The hexahedra of the mesh.
     pub(crate) fn cells(&self) -> &[[u32; 8]] {
-        match &self.mesh.cells {
+        match self.mesh.cells() {
             Cells::Hexahedra(cells) => cells,
             _ => &[],
         }
@@ -42,7 +42,7 @@ impl Hexes {
 
     /// The scaled Jacobians of the hexahedra as they are now. Linear time.
     pub fn quality(&self) -> Quality {
-        Quality::new(self.cells().iter().map(|c| scaled_jacobian(&self.mesh.points, c)).collect())
+        Quality::new(self.cells().iter().map(|c| scaled_jacobian(self.mesh.points(), c)).collect())
     }
 
     /// What solvers look at beside that. Linear time.
@@ -52,8 +52,8 @@ impl Hexes {
 
     /// How [sound](soundness) the hexahedra are as they are now. Linear time.
     pub(crate) fn soundness(&self) -> Quality {
-        let mean = mean_determinant(&self.mesh.points, self.cells());
-        Quality::new(self.cells().iter().map(|c| soundness(&self.mesh.points, c, mean)).collect())
+        let mean = mean_determinant(self.mesh.points(), self.cells());
+        Quality::new(self.cells().iter().map(|c| soundness(self.mesh.points(), c, mean)).collect())
     }
 
     /// The fields `block_id`, `label`, `scaled_jacobian` and those of [`CellMeasures`] for mesh files.
@@ -87,7 +87,7 @@ impl Remesher<'_> {
         let mut outer = self.surface_points(&context.stage("map", 0.0, 0.3))?;
         self.place_inside(&mut outer, &context.stage("map", 0.3, 0.9))?;
         if padding == 0 {
-            return Ok(self.unpadded(outer));
+            return self.unpadded(outer);
         }
         self.padded(outer, padding, &context.stage("padding", 0.9, 1.0))
     }
@@ -104,16 +104,16 @@ impl Remesher<'_> {
         Ok(())
     }
 
-    fn unpadded(&self, embedding: Embedding) -> Hexes {
+    fn unpadded(&self, embedding: Embedding) -> Result<Hexes> {
         let grid = &self.grid;
-        Hexes {
-            mesh: Mesh { points: embedding.points, cells: Cells::Hexahedra(grid.hexes.clone()) },
+        Ok(Hexes {
+            mesh: Mesh::new(embedding.points, Cells::Hexahedra(grid.hexes.clone()))?,
             polycube: (0..grid.vertices.len()).map(|v| Point::from(grid.position(v))).collect(),
             carriers: grid.carriers.clone(),
             block_id: grid.block.clone(),
             label: grid.cell_labels(),
             guessed: embedding.guessed,
-        }
+        })
     }
 
     fn padded(&self, mut embedding: Embedding, layers: usize, context: &Context) -> Result<Hexes> {
@@ -138,10 +138,16 @@ impl Remesher<'_> {
                 }
             }
         }
-        Ok(self.assemble(&padding, embedding, polycube, carriers))
+        self.assemble(&padding, embedding, polycube, carriers)
     }
 
-    fn assemble(&self, padding: &Padding, embedding: Embedding, polycube: Vec<Point>, carriers: Vec<Carrier>) -> Hexes {
+    fn assemble(
+        &self,
+        padding: &Padding,
+        embedding: Embedding,
+        polycube: Vec<Point>,
+        carriers: Vec<Carrier>,
+    ) -> Result<Hexes> {
         let grid = &self.grid;
         let (mut hexes, mut block_id) = (grid.hexes.clone(), grid.block.clone());
         let mut label = vec![-1; hexes.len()];
@@ -151,8 +157,8 @@ impl Remesher<'_> {
             block_id.push(grid.blocks.len() as u32 + square.face);
             label.push(square.label.index() as i8);
         }
-        let mesh = Mesh { points: embedding.points, cells: Cells::Hexahedra(hexes) };
-        Hexes { mesh, polycube, carriers, block_id, label, guessed: embedding.guessed }
+        let mesh = Mesh::new(embedding.points, Cells::Hexahedra(hexes))?;
+        Ok(Hexes { mesh, polycube, carriers, block_id, label, guessed: embedding.guessed })
     }
 }
 

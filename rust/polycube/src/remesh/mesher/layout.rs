@@ -33,7 +33,7 @@ pub struct Layout {
 impl Layout {
     /// The field `block_id` of `blocks`, for mesh files.
     pub fn block_fields(&self) -> Vec<CellField> {
-        let count = self.blocks.as_ref().map_or(0, |blocks| blocks.cells.len());
+        let count = self.blocks.as_ref().map_or(0, |blocks| blocks.cells().len());
         vec![CellField::integer("block_id", (0..count as i32).collect())]
     }
 }
@@ -56,8 +56,8 @@ impl Remesher<'_> {
         let blocks = numbers.blocks()?;
         let patches = numbers.patches()?;
         Ok(Layout {
-            blocks: Some(Mesh::of_used(points, Cells::Hexahedra(blocks)).0),
-            patches: Mesh::of_used(points, Cells::Quads(patches)).0,
+            blocks: Some(Mesh::of_used(points, Cells::Hexahedra(blocks))?.0),
+            patches: Mesh::of_used(points, Cells::Quads(patches))?.0,
             patch_label: self.grid.patches.iter().map(|p| p.label.index() as i8).collect(),
             singular: numbers.singular(points)?,
         })

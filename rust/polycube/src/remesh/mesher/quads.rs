@@ -31,16 +31,16 @@ impl Quads {
     /// The [scaled Jacobians](quadrilateral_scaled_jacobian) of the quadrilaterals: how near each is to a rectangle.
     /// Linear time.
     pub fn quality(&self) -> Quality {
-        let Cells::Quads(quads) = &self.mesh.cells else { return Quality::new(Vec::new()) };
-        Quality::new(quads.iter().map(|q| quadrilateral_scaled_jacobian(&self.mesh.points, q)).collect())
+        let Cells::Quads(quads) = self.mesh.cells() else { return Quality::new(Vec::new()) };
+        Quality::new(quads.iter().map(|q| quadrilateral_scaled_jacobian(self.mesh.points(), q)).collect())
     }
 
     /// The mean length of their sides, in the units of the shape.
     pub(crate) fn mean_side(&self) -> f64 {
-        let at = |v: u32| self.mesh.points[v as usize];
+        let at = |v: u32| self.mesh.points()[v as usize];
         let around = |quad: &[u32]| (0..4).map(|k| (at(quad[k]) - at(quad[(k + 1) % 4])).norm()).sum::<f64>();
-        let count = self.mesh.cells.len();
-        (0..count).map(|i| around(self.mesh.cells.cell(i))).sum::<f64>() / (4 * count.max(1)) as f64
+        let count = self.mesh.cells().len();
+        (0..count).map(|i| around(self.mesh.cells().cell(i))).sum::<f64>() / (4 * count.max(1)) as f64
     }
 
     /// The fields `label`, `patch_id` and `block_id` for mesh files.
@@ -61,7 +61,7 @@ impl Quads {
     pub fn feature_edges(&self) -> Vec<[u32; 2]> {
         let mut sides: Vec<([u32; 2], i8)> = Vec::with_capacity(4 * self.label.len());
         for (i, &label) in self.label.iter().enumerate() {
-            let quad = self.mesh.cells.cell(i);
+            let quad = self.mesh.cells().cell(i);
             let side = |k: usize| [quad[k].min(quad[(k + 1) % 4]), quad[k].max(quad[(k + 1) % 4])];
             sides.extend((0..4).map(|k| (side(k), label)));
         }
@@ -88,10 +88,7 @@ impl Remesher<'_> {
         }
         let quads = grid.squares.iter().map(|s| s.vertices.map(|v| number[v as usize])).collect();
         Ok(Quads {
-            mesh: Mesh {
-                points: ring.iter().map(|&v| embedding.points[v as usize]).collect(),
-                cells: Cells::Quads(quads),
-            },
+            mesh: Mesh::new(ring.iter().map(|&v| embedding.points[v as usize]).collect(), Cells::Quads(quads))?,
             polycube: ring.iter().map(|&v| Point::from(grid.position(v as usize))).collect(),
             carriers: ring.iter().map(|&v| grid.carriers[v as usize]).collect(),
             label: grid.squares.iter().map(|s| s.label.index() as i8).collect(),

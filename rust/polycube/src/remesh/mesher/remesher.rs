@@ -27,15 +27,15 @@ impl<'a> Remesher<'a> {
     pub fn new(map: &'a LatticeMap, shape: &'a Mesh, context: &Context) -> Result<Self> {
         context.tick(0.0)?;
         let polycube = &map.mesh;
-        if polycube.cells != shape.cells || polycube.points.len() != shape.points.len() {
+        if polycube.cells() != shape.cells() || polycube.points().len() != shape.points().len() {
             let message = "shape and polycube do not have the same vertices and cells";
             return Err(Error::new(ErrorKind::Mismatch, message).remedy("give the shape of this polycube"));
         }
         let grid = Grid::new(map.structure(), &map.levels)?;
         context.tick(0.7)?;
-        let surface = SurfaceMap::new(&map.polycube, &polycube.points, &shape.points);
+        let surface = SurfaceMap::new(&map.polycube, polycube.points(), shape.points());
         context.tick(1.0)?;
-        Ok(Self { map, shape: &shape.points, grid, surface, volume: OnceLock::new() })
+        Ok(Self { map, shape: shape.points(), grid, surface, volume: OnceLock::new() })
     }
 
     /// The tetrahedral map, indexed at its first use; nothing for surfaces.

@@ -117,12 +117,12 @@ fn in_order(
 /// it; and how many triangles are turned over if it is folded all the same.
 fn improve_map(simplified: &mut Simplified, shape: &Mesh, context: &Context) -> Result<(LatticeMap, Mesh, usize)> {
     let mut map = LatticeMap::new(simplified)?;
-    let mut refined = Refined::new(&map.polycube, &map.mesh.points, &shape.points)?;
+    let mut refined = Refined::new(&map.polycube, map.mesh.points(), shape.points())?;
     let folded = untangle_surface(&mut refined, context)?;
-    if let Some(mesh) = simplified.polycube.as_mut().filter(|mesh| !mesh.cells.is_volume()) {
-        mesh.points.iter_mut().zip(&refined.points).for_each(|(to, from)| *to = *from);
+    if let Some(mesh) = simplified.polycube.as_mut().filter(|mesh| !mesh.cells().is_volume()) {
+        mesh.points_mut().iter_mut().zip(&refined.points).for_each(|(to, from)| *to = *from);
     }
-    let [mesh, shape] = refined.meshes();
+    let [mesh, shape] = refined.meshes()?;
     (map.polycube, map.mesh) = (Arc::new(refined.polycube), mesh);
     Ok((map, shape, folded))
 }
@@ -131,7 +131,7 @@ fn improve_map(simplified: &mut Simplified, shape: &Mesh, context: &Context) -> 
 fn put_on(simplified: &mut Simplified, levels: &[i64]) {
     let between = LevelInterpolation::new(&simplified.input.structure, &simplified.levels, levels);
     if let Some(mesh) = &mut simplified.polycube {
-        between.move_all(&mut mesh.points);
+        between.move_all(mesh.points_mut());
     }
     simplified.levels = levels.to_vec();
 }

@@ -27,7 +27,7 @@ impl CoarseMesh {
     pub(crate) fn new(remesher: Remesher, hexes: &Hexes, layers: usize) -> Self {
         let (grid, levels) = (remesher.grid, remesher.map.levels.clone());
         let padding = Padding::new(&grid, layers);
-        let points = &hexes.mesh.points;
+        let points = hexes.mesh.points();
         let mut lattice = points[..grid.vertices.len()].to_vec();
         let mut all = vec![lattice.clone()];
         for layer in 1..=layers {
@@ -69,7 +69,7 @@ impl CoarseMesh {
         let place = |v: u32, layer: usize| {
             interpolate(&self.grid, &self.layers[layer], between.apply(grid.position(v as usize)))
         };
-        let mut points = hexes.mesh.points.clone();
+        let mut points = hexes.mesh.points().to_vec();
         for v in 0..grid.vertices.len() as u32 {
             points[v as usize] = place(v, 0)?;
         }
@@ -80,7 +80,7 @@ impl CoarseMesh {
                 points[padding.number(grid, v, layer) as usize] = outermost + (at - outermost) * THINNER;
             }
         }
-        hexes.mesh.points = points;
+        hexes.mesh.points_mut().copy_from_slice(&points);
         Ok(())
     }
 }

@@ -10,9 +10,9 @@ use crate::structure::Surface;
 
 /// The boundary is a closed manifold with the genus of the polycube; inner faces are shared by two.
 fn check_topology(case: &Case, mesh: &Mesh) {
-    let boundary = mesh.cells.boundary().unwrap();
+    let boundary = mesh.cells().boundary().unwrap();
     let faces = boundary.len();
-    let surface = Surface::new(boundary, mesh.points.len()).unwrap();
+    let surface = Surface::new(boundary, mesh.points().len()).unwrap();
     let mut used: Vec<u32> = surface.faces().iter().flat_map(|f| f.vertices().to_vec()).collect();
     used.sort_unstable();
     used.dedup();
@@ -48,23 +48,23 @@ pub(crate) fn check(case: &Case) {
     for padding in 0..=2 {
         let hexes = remesher.hexes(padding, &context).unwrap();
         let expected = count_hexes(structure, &case.simplified.levels, padding);
-        assert_eq!(hexes.mesh.cells.len() as u64, expected, "{}", case.name);
-        assert_eq!(hexes.carriers.len(), hexes.mesh.points.len());
+        assert_eq!(hexes.mesh.cells().len() as u64, expected, "{}", case.name);
+        assert_eq!(hexes.carriers.len(), hexes.mesh.points().len());
         check_topology(case, &hexes.mesh);
         check_polycube(case, &hexes);
         check_blocks(case, &hexes, if padding > 0 { after.blocks_padded } else { after.blocks });
         let layout = remesher.layout(&hexes.polycube, padding).unwrap();
         let blocks = layout.blocks.as_ref().unwrap();
-        assert_eq!(blocks.cells.len(), distinct(&hexes.block_id));
-        assert_eq!(layout.patches.cells.len(), after.surface_patches);
+        assert_eq!(blocks.cells().len(), distinct(&hexes.block_id));
+        assert_eq!(layout.patches.cells().len(), after.surface_patches);
         check_topology(case, blocks);
         if padding == 1 {
             check_singular(case, &layout, &hexes);
         }
         check_patches(case, &layout.patches);
-        assert!(cells(blocks).iter().all(|h| corner_jacobians(&blocks.points, h).iter().all(|j| *j > 0.0)
+        assert!(cells(blocks).iter().all(|h| corner_jacobians(blocks.points(), h).iter().all(|j| *j > 0.0)
             || structure.corners.iter().any(|c| c.valence > 3)));
-        assert!(remesher.layout(&hexes.mesh.points, padding).is_ok());
+        assert!(remesher.layout(hexes.mesh.points(), padding).is_ok());
     }
     let quads = remesher.quads(&context).unwrap();
     assert_eq!(distinct(&quads.patch_id), after.surface_patches, "{}", case.name);
@@ -73,12 +73,12 @@ pub(crate) fn check(case: &Case) {
 }
 
 fn check_patches(case: &Case, mesh: &Mesh) {
-    let faces = mesh.cells.boundary().unwrap();
+    let faces = mesh.cells().boundary().unwrap();
     let count = faces.len() as i64;
-    assert!(Surface::new(faces, mesh.points.len()).is_ok(), "{}", case.name);
+    assert!(Surface::new(faces, mesh.points().len()).is_ok(), "{}", case.name);
     let structure = &case.simplified.input.structure;
     let components = structure.components().into_iter().max().unwrap() as i64 + 1;
-    assert_eq!(mesh.points.len() as i64 - count, 2 * (components - structure.genus() as i64), "{}", case.name);
+    assert_eq!(mesh.points().len() as i64 - count, 2 * (components - structure.genus() as i64), "{}", case.name);
 }
 
 #[test]
@@ -140,8 +140,8 @@ fn check_edge_length(case: &Case) {
     let result = case.simplified.rescaled(&case.input(), scale, &context).unwrap();
     let map = LatticeMap::new(&result).unwrap();
     let quads = Remesher::new(&map, &case.shape, &context).unwrap().quads(&context).unwrap();
-    let Cells::Quads(cells) = &quads.mesh.cells else { panic!("not quadrilaterals") };
-    let at = |v: u32| quads.mesh.points[v as usize];
+    let Cells::Quads(cells) = quads.mesh.cells() else { panic!("not quadrilaterals") };
+    let at = |v: u32| quads.mesh.points()[v as usize];
     let lengths = cells.iter().flat_map(|q| (0..4).map(move |k| (at(q[k]) - at(q[(k + 1) % 4])).norm()));
     let mean = lengths.sum::<f64>() / (4 * cells.len()) as f64;
     assert!((1.5..2.5).contains(&mean), "{}: {mean}", case.name);

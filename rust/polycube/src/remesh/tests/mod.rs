@@ -68,7 +68,7 @@ fn generated() -> impl Iterator<Item = Case> {
 }
 
 fn cells(mesh: &Mesh) -> &[[u32; 8]] {
-    let Cells::Hexahedra(cells) = &mesh.cells else { panic!("not hexahedra") };
+    let Cells::Hexahedra(cells) = mesh.cells() else { panic!("not hexahedra") };
     cells
 }
 
@@ -89,7 +89,7 @@ fn scaled_jacobian(points: &[Point], hex: &[u32; 8]) -> f64 {
 
 /// How many are turned over, the smallest and the mean scaled Jacobian.
 fn quality(hexes: &Hexes) -> (usize, f64, f64) {
-    let all: Vec<f64> = cells(&hexes.mesh).iter().map(|h| scaled_jacobian(&hexes.mesh.points, h)).collect();
+    let all: Vec<f64> = cells(&hexes.mesh).iter().map(|h| scaled_jacobian(hexes.mesh.points(), h)).collect();
     let inverted = all.iter().filter(|s| **s <= 0.0).count();
     let worst = all.iter().copied().fold(f64::INFINITY, f64::min);
     (inverted, worst, all.iter().sum::<f64>() / all.len() as f64)

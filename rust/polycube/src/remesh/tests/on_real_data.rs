@@ -85,7 +85,7 @@ fn numbers_of_real_pairs() {
             "{} wanted {} got {} inverted {inverted} min {worst:.3} avg {mean:.3} guessed {} flipped in {} hausdorff {:.3}% | simplify {simplified} size {sized} grid {grid} quads {quad_time} hexes {hex_time} hausdorff {} total {:.2} | {:?}",
             case.name,
             published(&name),
-            hexes.mesh.cells.len(),
+            hexes.mesh.cells().len(),
             hexes.guessed,
             case.simplified.report.flipped_elements,
             100.0 * distance / diagonal,

@@ -30,7 +30,7 @@ fn check(name: &str, result: &Remeshed, shape: &Mesh) {
     let blocks = distinct(&base_complex(cells(&hexes.mesh), &Context::default()).unwrap());
     assert_eq!(blocks, report.simplify.after.unwrap().blocks_padded, "{name}");
     assert_eq!(
-        (blocks, result.layout.blocks.as_ref().map_or(0, |b| b.cells.len())),
+        (blocks, result.layout.blocks.as_ref().map_or(0, |b| b.cells().len())),
         (report.hex_blocks, blocks),
         "{name}"
     );

@@ -20,7 +20,7 @@ fn run((polycube, shape): &(Mesh, Mesh), hexes: usize) -> Remeshed {
 /// The largest ratio of the edges of a cell, and the least corner determinant over the mean of all.
 fn sizes(Hexes { mesh, .. }: &Hexes) -> (f64, f64) {
     let around = |k: usize| [[1, 3, 4], [2, 0, 5], [3, 1, 6], [0, 2, 7], [7, 5, 0], [4, 6, 1], [5, 7, 2], [6, 4, 3]][k];
-    let at = |v: u32| -> Point { mesh.points[v as usize] };
+    let at = |v: u32| -> Point { mesh.points()[v as usize] };
     let (mut ratio, mut determinants) = (0.0_f64, Vec::new());
     for hex in cells(mesh) {
         let lengths: Vec<f64> =
@@ -28,7 +28,7 @@ fn sizes(Hexes { mesh, .. }: &Hexes) -> (f64, f64) {
         let shortest = lengths.iter().copied().fold(f64::INFINITY, f64::min);
         ratio = ratio.max(lengths.iter().copied().fold(0.0, f64::max) / shortest);
         let product = |k: usize| lengths[3 * k..3 * k + 3].iter().product::<f64>();
-        determinants.extend(corner_jacobians(&mesh.points, hex).iter().enumerate().map(|(k, j)| j * product(k)));
+        determinants.extend(corner_jacobians(mesh.points(), hex).iter().enumerate().map(|(k, j)| j * product(k)));
     }
     let mean = determinants.iter().sum::<f64>() / determinants.len() as f64;
     (ratio, determinants.into_iter().fold(f64::INFINITY, f64::min) / mean)

@@ -11,13 +11,13 @@ use crate::simplify::Options;
 use crate::spatial::Nearest;
 
 fn size(mesh: &Mesh) -> f64 {
-    mesh.points.iter().map(|p| p.coords.norm()).fold(0.0, f64::max)
+    mesh.points().iter().map(|p| p.coords.norm()).fold(0.0, f64::max)
 }
 
 fn surface(mesh: &Mesh) -> Nearest<3> {
-    let faces = mesh.cells.boundary().unwrap();
+    let faces = mesh.cells().boundary().unwrap();
     let triangles = faces.iter().flat_map(Face::triangles);
-    Nearest::new(triangles.map(|t| t.map(|v| mesh.points[v as usize])))
+    Nearest::new(triangles.map(|t| t.map(|v| mesh.points()[v as usize])))
 }
 
 /// Quadrilaterals and the boundary of hexahedra have their vertices on the shape, corners on corners.
@@ -27,13 +27,13 @@ pub(crate) fn check(case: &Case) {
     let (index, size) = (surface(&case.shape), size(&case.shape));
     let quads = remesher.quads(&context).unwrap();
     let corners = &case.simplified.input.structure.corners;
-    for (p, carrier) in quads.mesh.points.iter().zip(&quads.carriers) {
+    for (p, carrier) in quads.mesh.points().iter().zip(&quads.carriers) {
         assert!(index.distance(p) < 1e-12 * size, "{}: {:e}", case.name, index.distance(p));
         match *carrier {
-            Carrier::Corner(c) => assert_eq!(*p, case.shape.points[corners[c as usize].vertex as usize]),
+            Carrier::Corner(c) => assert_eq!(*p, case.shape.points()[corners[c as usize].vertex as usize]),
             Carrier::Edge(e) => {
                 let chain = &case.simplified.input.chains[e as usize];
-                let segments = chain.windows(2).map(|s| [s[0], s[1], s[1]].map(|v| case.shape.points[v as usize]));
+                let segments = chain.windows(2).map(|s| [s[0], s[1], s[1]].map(|v| case.shape.points()[v as usize]));
                 assert!(Nearest::new(segments).distance(p) < 1e-12 * size, "{}", case.name);
             }
             Carrier::Facet(_) => {}
@@ -42,10 +42,10 @@ pub(crate) fn check(case: &Case) {
     }
     for padding in 0..2 {
         let hexes = remesher.hexes(padding, &context).unwrap();
-        let on_surface = hexes.carriers.iter().zip(&hexes.mesh.points).filter(|(s, _)| s.is_surface());
+        let on_surface = hexes.carriers.iter().zip(hexes.mesh.points()).filter(|(s, _)| s.is_surface());
         let outer: Vec<Point> = on_surface.map(|(_, p)| *p).collect();
-        assert_eq!(outer, quads.mesh.points, "{}", case.name);
-        let boundary = hexes.mesh.cells.boundary().unwrap();
+        assert_eq!(outer, quads.mesh.points(), "{}", case.name);
+        let boundary = hexes.mesh.cells().boundary().unwrap();
         let on_boundary = |v: &u32| hexes.carriers[*v as usize].is_surface();
         assert!(boundary.iter().all(|f| f.vertices().iter().all(on_boundary)));
     }
@@ -62,8 +62,8 @@ fn the_identity_gives_the_lattice() {
         let remesher = case.remesher();
         for padding in 0..2 {
             let hexes = remesher.hexes(padding, &context).unwrap();
-            let off = hexes.mesh.points.iter().zip(&hexes.polycube).map(|(a, b)| (a - b).norm()).fold(0.0, f64::max);
-            let tolerance = if case.shape.cells.is_volume() { 1e-12 } else { 1e-9 };
+            let off = hexes.mesh.points().iter().zip(&hexes.polycube).map(|(a, b)| (a - b).norm()).fold(0.0, f64::max);
+            let tolerance = if case.shape.cells().is_volume() { 1e-12 } else { 1e-9 };
             assert!(off < tolerance * size(&case.shape), "{}: {off:e}", case.name);
             assert_eq!((hexes.guessed, quality(&hexes).0), (0, 0));
         }
@@ -77,14 +77,14 @@ fn the_identity_gives_the_lattice() {
 fn hausdorff_sees_both_ways() {
     let (cube, _) = example(Example::CubeSpikes, 0, CellKind::Quads).unwrap();
     let mut moved = cube.clone();
-    moved.points.iter_mut().for_each(|p| p.x += 0.25);
+    moved.points_mut().iter_mut().for_each(|p| p.x += 0.25);
     let context = Context::default();
     let found = hausdorff(&moved, &cube, &context).unwrap();
     assert!((found - 0.25).abs() < 1e-12, "{found}");
     // A spike on one of them alone is seen from either side.
     let mut spiked = cube.clone();
-    let top = (0..spiked.points.len()).max_by(|&a, &b| cube.points[a].z.total_cmp(&cube.points[b].z)).unwrap();
-    spiked.points[top].z += 3.0;
+    let top = (0..spiked.points().len()).max_by(|&a, &b| cube.points()[a].z.total_cmp(&cube.points()[b].z)).unwrap();
+    spiked.points_mut()[top].z += 3.0;
     let [a, b] = [hausdorff(&spiked, &cube, &context), hausdorff(&cube, &spiked, &context)].map(|x| x.unwrap());
     assert_eq!(a, b);
     assert!((2.5..=3.0).contains(&a), "{a}");

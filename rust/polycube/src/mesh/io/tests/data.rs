@@ -20,8 +20,8 @@ fn published_pairs_agree() {
         let shape = PathBuf::from(path.to_string_lossy().replace(".polycube.", ".shape."));
         let (polycube, _) = read_pair(&path, &shape).unwrap();
         let is_volume = Format::from_path(&path).unwrap() == Format::Medit;
-        assert_eq!(polycube.cells.is_volume(), is_volume);
-        assert!(polycube.points.iter().all(|p| p.iter().all(|x| x.fract() == 0.0)));
+        assert_eq!(polycube.cells().is_volume(), is_volume);
+        assert!(polycube.points().iter().all(|p| p.iter().all(|x| x.fract() == 0.0)));
     }
 }
 
@@ -29,7 +29,7 @@ fn published_pairs_agree() {
 fn published_shapes_round_trip() {
     for path in polycubes() {
         let shape = read(&PathBuf::from(path.to_string_lossy().replace(".polycube.", ".shape."))).unwrap();
-        for format in Format::ALL.into_iter().filter(|f| f.holds(shape.cells.kind()) && *f != Format::Stl) {
+        for format in Format::ALL.into_iter().filter(|f| f.holds(shape.cells().kind()) && *f != Format::Stl) {
             let start = Instant::now();
             let bytes = write_bytes(format, &shape, &[]).unwrap();
             let written = start.elapsed();

@@ -89,9 +89,9 @@ fn stl_names_the_line() {
     fails(Format::Stl, format!("{head}vertex 0 0 a"), ErrorKind::Parse, line(5));
     fails(Format::Stl, format!("{head}apex 0 0 0"), ErrorKind::Parse, line(5));
     let mut large = sample(CellKind::Triangles);
-    large.points[1].x = 1e39;
-    large.points.iter_mut().for_each(|p| p.y = 0.0);
-    large.points.iter_mut().for_each(|p| p.z = 0.0);
+    large.points_mut()[1].x = 1e39;
+    large.points_mut().iter_mut().for_each(|p| p.y = 0.0);
+    large.points_mut().iter_mut().for_each(|p| p.z = 0.0);
     let error = write_bytes(Format::Stl, &large, &[]).unwrap_err();
     assert_eq!((error.kind, error.place), (ErrorKind::Mesh, Some(Place::Vertex(1))));
 }

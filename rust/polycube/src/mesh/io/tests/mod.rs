@@ -4,7 +4,8 @@ mod property;
 mod variants;
 
 use super::*;
-use crate::mesh::{CellKind, Cells};
+use crate::error::Place;
+use crate::mesh::{CellKind, Cells, Point};
 use std::fs;
 
 /// Two cells of `kind` over awkward but finite coordinates, numbered as they first appear.
@@ -19,19 +20,19 @@ pub(super) fn sample(kind: CellKind) -> Mesh {
     let count = (0..2).flat_map(|i| cells.cell(i)).max().unwrap() + 1;
     let coordinate = |i: u32, axis: usize| odd[(i as usize * 3 + axis * 7) % odd.len()] + 0.0;
     let points = (0..count).map(|i| Point::new(f64::from(i), coordinate(i, 1), coordinate(i, 2))).collect();
-    Mesh { points, cells }
+    Mesh::new(points, cells).unwrap()
 }
 
 /// The mesh with its coordinates rounded to what STL can hold.
 pub(super) fn single(mut mesh: Mesh) -> Mesh {
-    for x in mesh.points.iter_mut().flat_map(|p| p.iter_mut()) {
+    for x in mesh.points_mut().iter_mut().flat_map(|p| p.iter_mut()) {
         *x = f64::from(x.clamp(-1e30, 1e30) as f32);
     }
     mesh
 }
 
 pub(super) fn bits(mesh: &Mesh) -> Vec<u64> {
-    let coordinates = mesh.points.iter().flat_map(|p| p.iter());
+    let coordinates = mesh.points().iter().flat_map(|p| p.iter());
     coordinates.map(|x| x.to_bits()).collect()
 }
 
@@ -90,7 +91,7 @@ fn fields_go_where_they_can() {
 
 #[test]
 fn unusable_fields_and_meshes_are_not_written() {
-    let mut mesh = sample(CellKind::Triangles);
+    let mesh = sample(CellKind::Triangles);
     for (name, count) in [("a", 1), ("a b", 2), ("", 2), ("<a>", 2)] {
         let field = CellField::integer(name, vec![0; count]);
         let error = write_bytes(Format::Vtu, &mesh, &[field]).unwrap_err();
@@ -98,15 +99,8 @@ fn unusable_fields_and_meshes_are_not_written() {
     }
     let twice = [fields(), fields()].concat();
     assert_eq!(write_bytes(Format::Vtk, &mesh, &twice).unwrap_err().kind, ErrorKind::Option);
-    mesh.points.pop();
-    let error = write_bytes(Format::Obj, &mesh, &[]).unwrap_err();
-    assert_eq!((error.kind, error.place), (ErrorKind::Mesh, Some(Place::Cell(1))));
-    mesh.points[1].y = f64::NAN;
-    let error = write_bytes(Format::Obj, &mesh, &[]).unwrap_err();
-    assert_eq!((error.kind, error.place), (ErrorKind::Mesh, Some(Place::Vertex(1))));
-    mesh.cells = Cells::Quads(Vec::new());
-    mesh.points.clear();
-    assert_eq!(write_bytes(Format::Off, &mesh, &[]).unwrap_err().kind, ErrorKind::Mesh);
+    let none = Mesh::new(Vec::new(), Cells::Quads(Vec::new())).unwrap();
+    assert_eq!(write_bytes(Format::Off, &none, &[]).unwrap_err().kind, ErrorKind::Mesh);
 }
 
 #[test]
@@ -118,9 +112,8 @@ fn a_file_is_replaced_whole_or_not_at_all() {
     assert_eq!(read(&path).unwrap(), mesh);
     let before = fs::read(&path).unwrap();
     // Nothing that fails touches the file.
-    let mut broken = mesh.clone();
-    broken.points[0].x = f64::INFINITY;
-    assert!(write(&path, &broken, &[]).is_err());
+    let broken = [CellField::integer("number", Vec::new())];
+    assert!(write(&path, &mesh, &broken).is_err());
     assert_eq!(fs::read(&path).unwrap(), before);
     // A folder in the way, and a folder that is not there.
     fs::create_dir(folder.path().join("b.obj")).unwrap();
@@ -209,15 +202,15 @@ fn a_pair_must_have_one_connectivity() {
     let path = |name| folder.path().join(name);
     let mesh = sample(CellKind::Quads);
     let mut other = mesh.clone();
-    other.points[0].x = 9.0;
+    other.points_mut()[0].x = 9.0;
     write(&path("a.obj"), &mesh, &[]).unwrap();
     write(&path("b.vtk"), &other, &[]).unwrap();
     assert_eq!(read_pair(&path("a.obj"), &path("b.vtk")).unwrap(), (mesh.clone(), other.clone()));
-    other.cells = Cells::Quads(vec![[0, 1, 2, 3], [2, 4, 5, 3]]);
+    other = other.edited(|_, cells| *cells = Cells::Quads(vec![[0, 1, 2, 3], [2, 4, 5, 3]])).unwrap();
     write(&path("b.vtk"), &other, &[]).unwrap();
     let error = read_pair(&path("a.obj"), &path("b.vtk")).unwrap_err();
     assert_eq!((error.kind, error.place), (ErrorKind::Mismatch, Some(Place::Cell(1))));
-    other.points.push(Point::origin());
+    other = other.edited(|points, _| points.push(Point::origin())).unwrap();
     write(&path("b.vtk"), &other, &[]).unwrap();
     write(&path("c.stl"), &single(sample(CellKind::Triangles)), &[]).unwrap();
     for name in ["b.vtk", "c.stl"] {
@@ -234,12 +227,12 @@ fn a_pair_of_stl_is_welded_jointly() {
     let polycube = single(sample(CellKind::Triangles));
     // Vertices 0 and 3 of the shape coincide, but not those of the polycube.
     let mut shape = polycube.clone();
-    shape.points[3] = shape.points[0];
+    shape.points_mut()[3] = shape.points()[0];
     write(&a, &polycube, &[]).unwrap();
     write(&b, &shape, &[]).unwrap();
-    assert_eq!(read(&b).unwrap().points.len(), 3);
+    assert_eq!(read(&b).unwrap().points().len(), 3);
     assert_eq!(read_pair(&a, &b).unwrap(), (polycube.clone(), shape));
     let one = Cells::Triangles(vec![[0, 1, 2]]);
-    write(&b, &Mesh { cells: one, ..polycube }, &[]).unwrap();
+    write(&b, &polycube.edited(|_, cells| *cells = one).unwrap(), &[]).unwrap();
     assert_eq!(read_pair(&a, &b).unwrap_err().kind, ErrorKind::Mismatch);
 }

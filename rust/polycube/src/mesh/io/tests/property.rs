@@ -30,7 +30,7 @@ fn any_mesh_of(kinds: &'static [CellKind]) -> impl Strategy<Value = Mesh> {
             CellKind::Hexahedra => Cells::Hexahedra(corners),
         };
         let points = points.into_iter().map(Point::from).collect();
-        Mesh { points, cells }
+        Mesh::new(points, cells).unwrap()
     })
 }
 
@@ -134,7 +134,7 @@ proptest! {
 
     #[test]
     fn what_was_written_is_read(mesh in any_mesh()) {
-        let able = |f: &Format| *f != Format::Stl && f.holds(mesh.cells.kind());
+        let able = |f: &Format| *f != Format::Stl && f.holds(mesh.cells().kind());
         for format in Format::ALL.into_iter().filter(able) {
         let again = read_bytes(format, &write_bytes(format, &mesh, &[]).unwrap()).unwrap();
         prop_assert_eq!(bits(&again), bits(&mesh));
@@ -146,9 +146,9 @@ proptest! {
     fn stl_keeps_every_corner(mesh in any_mesh_of(&[CellKind::Triangles])) {
         let mesh = single(mesh);
         let again = read_bytes(Format::Stl, &write_bytes(Format::Stl, &mesh, &[]).unwrap()).unwrap();
-        for i in 0..mesh.cells.len() {
-            for (a, b) in mesh.cells.cell(i).iter().zip(again.cells.cell(i)) {
-                prop_assert_eq!(mesh.points[*a as usize], again.points[*b as usize]);
+        for i in 0..mesh.cells().len() {
+            for (a, b) in mesh.cells().cell(i).iter().zip(again.cells().cell(i)) {
+                prop_assert_eq!(mesh.points()[*a as usize], again.points()[*b as usize]);
             }
         }
     }

@@ -9,7 +9,7 @@ fn parse(format: Format, text: &str) -> Mesh {
 }
 
 fn triangles(mesh: &Mesh) -> &[[u32; 3]] {
-    match &mesh.cells {
+    match mesh.cells() {
         Cells::Triangles(cells) => cells,
         other => panic!("{other:?}"),
     }
@@ -21,8 +21,8 @@ fn obj_in_all_its_forms() {
         vt 0 0\nvn 0 0 1\ng a b\n\tv  1 1 0\nv 0 1 0 # top\nusemtl x\ns off\nv 9 9 9\n\
         f 1/1/1 2//1 3/1\nf -5 -3 \\\n -2\n";
     let mesh = parse(Format::Obj, text);
-    assert_eq!(mesh.points.len(), 5);
-    assert_eq!(mesh.points[1], Point::new(1.0, 0.0, 0.0));
+    assert_eq!(mesh.points().len(), 5);
+    assert_eq!(mesh.points()[1], Point::new(1.0, 0.0, 0.0));
     assert_eq!(triangles(&mesh), [[0, 1, 2], [0, 2, 3]]);
 }
 
@@ -50,7 +50,7 @@ fn off_in_all_its_forms() {
         }
     }
     let text = "COFF\n3 1 0\n0 0 0 255 0 0 255\n1 0 0 1 1 1 1\n0 1 0 0 0 0 0\n3 0 1 2";
-    assert_eq!(parse(Format::Off, text).points[2], Point::new(0.0, 1.0, 0.0));
+    assert_eq!(parse(Format::Off, text).points()[2], Point::new(0.0, 1.0, 0.0));
 }
 
 #[test]
@@ -66,7 +66,7 @@ fn ply_text_and_both_binaries() {
     let text = header("ascii") + "2 7 8\n1 0 0 0\n1 0 1 0\n1 0.5 0 -2\n9 3 0 1 2\n";
     let mesh = parse(Format::Ply, &text);
     assert_eq!(triangles(&mesh), [[0, 1, 2]]);
-    assert_eq!(mesh.points[2], Point::new(0.0, -2.0, 0.5));
+    assert_eq!(mesh.points()[2], Point::new(0.0, -2.0, 0.5));
     for (name, big) in [("binary_little_endian", false), ("binary_big_endian", true)] {
         let mut bytes = header(name).into_bytes();
         let mut put = |mut number: Vec<u8>| {
@@ -108,7 +108,7 @@ fn medit_in_all_its_forms() {
     let text = "# x\nMeshVersionFormatted 1\nDimension\n3 Tetrahedra 1\n1 2 3 4 7\nCorners 2\n1 2\n\
         Normals\n1\n0 -1 .5\nPrisms 0\nTriangles\n1\n1 2 3 0\nVertices\n4\n0 0 0 1\n1 0 0 1\n0 1 0 1\n0 0 1 1";
     let mesh = parse(Format::Medit, text);
-    assert_eq!(mesh.cells, Cells::Tetrahedra(vec![[0, 1, 2, 3]]));
+    assert_eq!(*mesh.cells(), Cells::Tetrahedra(vec![[0, 1, 2, 3]]));
     assert_eq!(parse(Format::Medit, &format!("{text}\nEnd garbage")), mesh);
 }
 
@@ -117,12 +117,12 @@ fn vtk_versions_and_data_sets() {
     let text = "# vtk DataFile Version 2.0\nCELLS 1 2\nASCII\nDATASET POLYDATA\nFIELD FieldData 1\n\
         TIME 1 1 double\n0.5\nPOINTS 4 float\n0 0 0 1 0 0 1 1 0 0 1 0\nMETADATA\nINFORMATION 0\n\n\
         VERTICES 1 2\n1 0\nPOLYGONS 1 5\n4 0 1 2 3\nCELL_DATA 1\nanything";
-    assert_eq!(parse(Format::Vtk, text).cells, Cells::Quads(vec![[0, 1, 2, 3]]));
+    assert_eq!(*parse(Format::Vtk, text).cells(), Cells::Quads(vec![[0, 1, 2, 3]]));
     let text = "# vtk DataFile Version 5.1\n\nASCII\nDATASET UNSTRUCTURED_GRID\nPOINTS 8 double\n\
         0 0 0 1 0 0 0 1 0 1 1 0 0 0 1 1 0 1 0 1 1 1 1 1\nCELLS 3 9\nOFFSETS vtktypeint64\n0 1 9\n\
         CONNECTIVITY vtktypeint64\n0 0 1 2 3 4 5 6 7\nCELL_TYPES 2\n1 11\n";
     let expected = Cells::Hexahedra(vec![[0, 1, 3, 2, 4, 5, 7, 6]]);
-    assert_eq!(parse(Format::Vtk, text).cells, expected);
+    assert_eq!(*parse(Format::Vtk, text).cells(), expected);
 }
 
 #[test]
@@ -146,7 +146,7 @@ fn vtk_binary_old_and_new() {
     ]
     .concat();
     let mesh = read_bytes(Format::Vtk, &old).unwrap();
-    assert_eq!(mesh.points[0], Point::new(0.0, 10.0, 2573.0));
+    assert_eq!(mesh.points()[0], Point::new(0.0, 10.0, 2573.0));
     assert_eq!(triangles(&mesh), [[0, 1, 2]]);
     assert_eq!(read_bytes(Format::Vtk, &new).unwrap(), mesh);
 }
@@ -209,15 +209,15 @@ fn packed(data: &[u8], size: usize) -> Vec<u8> {
 fn compressed_vtu_may_be_a_regular_grid_but_no_bomb() {
     let zlib = "compressor=\"vtkZLibDataCompressor\"";
     let mesh = crate::map::testing::hex_box([20, 20, 20]);
-    let Cells::Hexahedra(cells) = &mesh.cells else { panic!() };
-    let points: Vec<u8> = mesh.points.iter().flat_map(|p| p.iter()).flat_map(|&x| (x as f32).to_le_bytes()).collect();
+    let Cells::Hexahedra(cells) = mesh.cells() else { panic!() };
+    let points: Vec<u8> = mesh.points().iter().flat_map(|p| p.iter()).flat_map(|&x| (x as f32).to_le_bytes()).collect();
     let corners: Vec<u8> = cells.as_flattened().iter().flat_map(|v| v.to_le_bytes()).collect();
     let ends: Vec<u8> = (1..=cells.len() as u32).flat_map(|i| (8 * i).to_le_bytes()).collect();
     let grid = [points, corners, ends, vec![12; cells.len()]];
     for size in [32768, 1 << 24] {
         let packed = |data: &[u8]| packed(data, size);
         let file = appended(zlib, "raw", &grid.each_ref().map(|data| packed(data)));
-        assert_eq!(read_bytes(Format::Vtu, &file).unwrap().cells, mesh.cells);
+        assert_eq!(read_bytes(Format::Vtu, &file).unwrap().cells(), mesh.cells());
         let mut bomb = grid.each_ref().map(|data| packed(data));
         bomb[0] = packed(&vec![0; 1 << 26]);
         let error = read_bytes(Format::Vtu, &appended(zlib, "raw", &bomb)).unwrap_err();
