@@ -14,7 +14,8 @@ fn one(folder: &Path, path: &Path) -> Result<()> {
     let made = make(&read(path)?, &MakeOptions::default(), &Context::default())?;
     let report = &made.report;
     println!(
-        "{name}: corners {}, facets {}, genus {}, misfit {:.4}, added {}, folded {}, angle {:.3}, {:.2} + {:.2} + {:.2} s",
+        "{name}: corners {}, facets {}, genus {}, misfit {:.4}, added {}, folded {}, angle {:.3}, \
+         {:.2} + {:.2} + {:.2} s",
         report.corners,
         report.facets,
         report.genus,

@@ -71,8 +71,8 @@ impl fmt::Display for Place {
 pub struct Error {
     /// Which of the closed set of kinds this is.
     pub kind: ErrorKind,
-    /// The name of the file that is wrong, or of both where they do not go together; nothing for what came from memory, and where
-    /// the message names the file.
+    /// The name of the file that is wrong, or of both where they do not go together; nothing for what came from memory,
+    /// and where the message names the file.
     pub file: Option<String>,
     /// The element concerned, where there is one.
     pub place: Option<Place>,

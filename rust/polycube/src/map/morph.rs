@@ -34,10 +34,9 @@ use crate::mesh::{Face, Mesh, Point, Simplices};
 /// with few large facets takes longer, about n^1.5: some seconds for 200,000 vertices.
 ///
 /// # Errors
-/// [`ErrorKind::Mismatch`] unless `fixed` has one entry for each vertex, [`ErrorKind::Option`] when
-/// one is not finite; [`ErrorKind::Mesh`] for a face of three cells; [`ErrorKind::Polycube`] naming a vertex of a component without
-/// any prescribed coordinate on some axis; [`ErrorKind::Cancelled`]; [`ErrorKind::Internal`] if the
-/// solver fails.
+/// [`ErrorKind::Mismatch`] unless `fixed` has one entry for each vertex, [`ErrorKind::Option`] when one is not finite;
+/// [`ErrorKind::Mesh`] for a face of three cells; [`ErrorKind::Polycube`] naming a vertex of a component without any
+/// prescribed coordinate on some axis; [`ErrorKind::Cancelled`]; [`ErrorKind::Internal`] if the solver fails.
 pub fn morph(mesh: &Mesh, fixed: &[[Option<f64>; 3]], context: &Context) -> Result<Vec<Point>> {
     check(mesh, fixed)?;
     let mut known: Vec<[bool; 3]> = fixed.iter().map(|f| f.map(|c| c.is_some())).collect();

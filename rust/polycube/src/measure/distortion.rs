@@ -239,9 +239,8 @@ mod tests {
             let s = j.singular_values();
             let from = [[0.1, 0.2], [1.3, 0.1], [0.4, 0.9]].map(nalgebra::Vector2::from);
             let lift = |p: nalgebra::Vector2<f64>| Point::new(p.x, p.y, 1.0);
-            let Image::Good(Stretch { determinant: d, angle, .. }) = triangle(from.map(lift), from.map(|p| lift(j * p))) else {
-                panic!("degenerate")
-            };
+            let image = triangle(from.map(lift), from.map(|p| lift(j * p)));
+            let Image::Good(Stretch { determinant: d, angle, .. }) = image else { panic!("degenerate") };
             let expected = (s[0] / s[1] + s[1] / s[0]) / 2.0;
             prop_assert!((angle - expected).abs() < 1e-9 * expected);
             prop_assert!((d - j.determinant().abs()).abs() < 1e-9);

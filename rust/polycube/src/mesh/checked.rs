@@ -26,8 +26,8 @@ impl Mesh {
     /// The mesh of `cells` over `points`, of which some may be unused. Linear time.
     ///
     /// # Errors
-    /// [`ErrorKind::Mesh`] naming a vertex with a coordinate that is not a finite number, or a cell with a vertex that is
-    /// not there; [`ErrorKind::Unsupported`] for more vertices than 32-bit indices can name.
+    /// [`ErrorKind::Mesh`] naming a vertex with a coordinate that is not a finite number, or a cell with a vertex that
+    /// is not there; [`ErrorKind::Unsupported`] for more vertices than 32-bit indices can name.
     pub fn new(points: Vec<Point>, cells: Cells) -> Result<Self> {
         check_points(&points)?;
         check_cells(&cells, points.len())?;

@@ -76,7 +76,8 @@ impl Cells {
     /// The faces that belong to one cell only, outward, in the order of the cells and then of
     /// VTK's local faces. The boundary of a surface is its cells.
     ///
-    /// O(n log n) time, linear but for fans of many cells around a vertex; about 50 bytes a tetrahedron of passing memory.
+    /// O(n log n) time, linear but for fans of many cells around a vertex; about 50 bytes a tetrahedron of passing
+    /// memory.
     ///
     /// # Errors
     /// [`ErrorKind::Mesh`] naming a cell when more than two cells share one face, or when the
@@ -237,7 +238,8 @@ mod tests {
             let cells = Cells::Tetrahedra(split);
             let mut split: Vec<_> = cells.boundary().unwrap().iter()
                 .map(|f| key([f.vertices()[0], f.vertices()[1], f.vertices()[2]])).collect();
-            let mut quads: Vec<_> = mesh.cells().boundary().unwrap().iter().flat_map(Face::triangles).map(key).collect();
+            let quads = mesh.cells().boundary().unwrap();
+            let mut quads: Vec<_> = quads.iter().flat_map(Face::triangles).map(key).collect();
             split.sort_unstable();
             quads.sort_unstable();
             prop_assert_eq!(split, quads);

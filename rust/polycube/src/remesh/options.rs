@@ -11,19 +11,21 @@ use crate::simplify;
 /// How a shape is meshed.
 #[derive(Clone, Debug, PartialEq)]
 pub struct RemeshOptions {
-    /// How the polycube is simplified; [`Strategy::Naive`](crate::align::Strategy::Naive) meshes it as it is. Of `scale` only [`size`](Self::size) is used
-    /// where that is given. Without an objective it is padded blocks that count, unless only the surface is meshed. Unless the options
-    /// say where on the front, how far corners may move, or how distorted the map may be, more blocks than the fewest are taken where
-    /// those make poor hexahedra, and a note says so.
+    /// How the polycube is simplified; [`Strategy::Naive`](crate::align::Strategy::Naive) meshes it as it is. Of
+    /// `scale` only [`size`](Self::size) is used where that is given. Without an objective it is padded blocks that
+    /// count, unless only the surface is meshed. Unless the options say where on the front, how far corners may move,
+    /// or how distorted the map may be, more blocks than the fewest are taken where those make poor hexahedra, and a
+    /// note says so.
     pub simplify: simplify::Options,
     /// How fine the mesh shall be; by default as [`simplify::Options::scale`] says.
     pub size: Option<Size>,
-    /// Layers of hexahedra between the polycube and the surface, 0 to [`MAX_PADDING`](super::MAX_PADDING); 1 by default.
+    /// Layers of hexahedra between the polycube and the surface, 0 to [`MAX_PADDING`](super::MAX_PADDING); 1 by
+    /// default.
     pub padding: usize,
     /// Leave the hexahedra out.
     pub surface_only: bool,
-    /// The largest Hausdorff distance to accept, as a **fraction** of the bounding box's diagonal; 0.005 by default, half a
-    /// percent. (The command and Python take percent.)
+    /// The largest Hausdorff distance to accept, as a **fraction** of the bounding box's diagonal; 0.005 by default,
+    /// half a percent. (The command and Python take percent.)
     pub max_hausdorff: f64,
     /// How hard the hexahedra are optimised; `scope` is not looked at, both ways are tried.
     pub optimise: Settings,
@@ -54,8 +56,8 @@ impl RemeshOptions {
         self.simplify.check()
     }
 
-    /// Whether levels may lie where the shape wants them: not if the scale was given, the polycube is meshed as it is, or some
-    /// facets have their places.
+    /// Whether levels may lie where the shape wants them: not if the scale was given, the polycube is meshed as it is,
+    /// or some facets have their places.
     pub(crate) fn has_flexible_levels(&self) -> bool {
         let sized = matches!(self.size, Some(Size::Hexes(_) | Size::EdgeLength(_)));
         sized && self.simplify.strategy != Strategy::Naive && self.simplify.guides.is_empty()

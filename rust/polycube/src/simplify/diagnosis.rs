@@ -37,7 +37,7 @@ pub fn remedy(violations: &[Violation], input: &Input, tolerance: &Tolerance) ->
     let skew = violations.iter().filter(|v| matches!(v, Violation::SkewFace { .. })).count();
     let faces = input.polycube.cells().boundary().map_or(0, |faces| faces.len());
     (skew * SKEW > faces).then_some(
-        "this looks like a shape, not a polycube: name its polycube; if it is one, give labels in a label file, raise the angle \
-         tolerance, or flatten it",
+        "this looks like a shape, not a polycube: name its polycube; if it is one, give labels in a label file, raise \
+         the angle tolerance, or flatten it",
     )
 }

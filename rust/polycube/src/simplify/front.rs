@@ -24,8 +24,8 @@ pub struct Located {
 }
 
 impl Simplified {
-    /// Another point of the same front, from 1, the fewest blocks, to 0, the least displacement: for a slider. Nothing is
-    /// searched; it takes the time of placing the levels and of the morph. `input` must be what was simplified.
+    /// Another point of the same front, from 1, the fewest blocks, to 0, the least displacement: for a slider. Nothing
+    /// is searched; it takes the time of placing the levels and of the morph. `input` must be what was simplified.
     ///
     /// It is what [`simplify`](super::simplify) would give with this simplicity and no limits on displacement and
     /// distortion; its notes name those that it does not keep.
@@ -47,8 +47,8 @@ impl Simplified {
     /// ```
     ///
     /// # Errors
-    /// [`ErrorKind::Option`] for a simplicity out of range, or if there is no front (only [`Strategy::Best`] finds one);
-    /// [`ErrorKind::Mismatch`] if `input` has other cells; those of [`align::place`]; [`ErrorKind::Cancelled`].
+    /// [`ErrorKind::Option`] for a simplicity out of range, or if there is no front (only [`Strategy::Best`] finds
+    /// one); [`ErrorKind::Mismatch`] if `input` has other cells; those of [`align::place`]; [`ErrorKind::Cancelled`].
     pub fn at(&self, input: &Input, simplicity: f64, context: &Context) -> Result<Self> {
         let start = Instant::now();
         let located = self.locate(simplicity, context)?;
@@ -89,8 +89,8 @@ impl Simplified {
         (0..count).map(point).collect()
     }
 
-    /// The first point from this one on whose map is distorted no more than the options allow; if there is none, the least
-    /// distorted one, with a note.
+    /// The first point from this one on whose map is distorted no more than the options allow; if there is none, the
+    /// least distorted one, with a note.
     pub(super) fn within_distortion(self, input: &Input, context: &Context) -> Result<Self> {
         let Some(limit) = self.options.max_distortion else { return Ok(self) };
         let first = self.report.chosen.map_or(usize::MAX, |c| c + 1);

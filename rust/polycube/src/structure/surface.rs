@@ -18,7 +18,8 @@ pub struct Surface {
 }
 
 impl Surface {
-    /// Links `faces`, which name none but the first `vertices` vertices, or lists everything that is not closed, oriented and manifold.
+    /// Links `faces`, which name none but the first `vertices` vertices, or lists everything that is not closed,
+    /// oriented and manifold.
     ///
     /// O(n) for n faces and vertices.
     pub(crate) fn new(faces: Vec<Face>, vertices: usize) -> Result<Self, Vec<Violation>> {

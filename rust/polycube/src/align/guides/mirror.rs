@@ -11,8 +11,8 @@ const TOLERANCE: f64 = 0.25;
 /// The image of every level under reflection in a plane.
 ///
 /// # Errors
-/// [`ErrorKind::Option`] if the axis or the place of the plane is no number that makes sense, or if the input is not symmetric
-/// about it, with a corner or a facet that has no image.
+/// [`ErrorKind::Option`] if the axis or the place of the plane is no number that makes sense, or if the input is not
+/// symmetric about it, with a corner or a facet that has no image.
 pub fn images(structure: &Structure, input: &[f64], plane: &Symmetry) -> Result<Vec<u32>> {
     if plane.axis > 2 || !plane.at.is_finite() {
         let message = format!("axis {} at {} is no plane of symmetry", plane.axis, plane.at);
@@ -34,7 +34,8 @@ pub fn images(structure: &Structure, input: &[f64], plane: &Symmetry) -> Result<
     Ok((0..).zip(image).map(|(l, i)| if i == u32::MAX { l } else { i }).collect())
 }
 
-/// The planes through the middle of the polycube that it is symmetric about: the axis across, and the image of each level.
+/// The planes through the middle of the polycube that it is symmetric about: the axis across, and the image of each
+/// level.
 pub fn symmetries(structure: &Structure, input: &[f64]) -> Vec<(usize, Vec<u32>)> {
     let middle = |axis: usize| {
         let along = structure.levels.iter().zip(input).filter(|(l, _)| l.axis == axis).map(|(_, &x)| x);

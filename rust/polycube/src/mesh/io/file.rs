@@ -19,8 +19,9 @@ pub(super) fn read_file(path: &Path) -> Result<Vec<u8>> {
 
 /// Writes a file as a whole or not at all: whatever goes wrong, an older file stays as it was.
 ///
-/// The bytes go to a temporary file in the same folder, are flushed to the disk, and the file is renamed.
-/// A symbolic link is followed, also where it leads to no file yet; the permissions of an older file are kept; a device or pipe is written to directly.
+/// The bytes go to a temporary file in the same folder, are flushed to the disk, and the file is renamed. A symbolic
+/// link is followed, also where it leads to no file yet; the permissions of an older file are kept; a device or pipe is
+/// written to directly.
 ///
 /// # Errors
 /// [`ErrorKind::Io`] naming the path and saying what the operating system said. No temporary file is left.

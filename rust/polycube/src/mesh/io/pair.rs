@@ -5,8 +5,8 @@ use crate::error::{Error, ErrorKind, Place, Result};
 use crate::mesh::Mesh;
 use std::path::Path;
 
-/// Reads a polycube and its shape, two meshes with the same connectivity: **the polycube first**, in the arguments and in
-/// the pair that is returned. (Python's `read_pair` has the shape first.)
+/// Reads a polycube and its shape, two meshes with the same connectivity: **the polycube first**, in the arguments and
+/// in the pair that is returned. (Python's `read_pair` has the shape first.)
 ///
 /// Both are read as [`read`](super::read) does. Of two STL files, which have no connectivity of their own,
 /// two corners become one vertex where both files agree that they coincide.

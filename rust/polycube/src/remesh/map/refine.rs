@@ -5,8 +5,8 @@ use crate::mesh::{Cells, Face, Mesh, Point};
 use crate::structure::{Polycube, Surface};
 use std::collections::BTreeMap;
 
-/// A polycube's surface as triangles, with its points on the lattice and on the shape. Splitting changes neither surface,
-/// only the map between them.
+/// A polycube's surface as triangles, with its points on the lattice and on the shape. Splitting changes neither
+/// surface, only the map between them.
 pub(crate) struct Refined {
     pub(crate) polycube: Polycube,
     pub(crate) points: Vec<Point>,
@@ -15,8 +15,8 @@ pub(crate) struct Refined {
 }
 
 impl Refined {
-    /// The triangles of a surface. Mesh edges that cross a facet from border to border are cut in two: their ends cannot
-    /// make way, and on a facet that is not convex such an edge may leave it.
+    /// The triangles of a surface. Mesh edges that cross a facet from border to border are cut in two: their ends
+    /// cannot make way, and on a facet that is not convex such an edge may leave it.
     pub(crate) fn new(polycube: &Polycube, points: &[Point], shape: &[Point]) -> Result<Self> {
         let mut polycube = polycube.clone();
         let mut triangles = Vec::new();

@@ -2,7 +2,8 @@
 
 use crate::align::TradeOff;
 
-/// Points between one that is wrong and one that is right are looked at as long as they may save this part of the blocks.
+/// Points between one that is wrong and one that is right are looked at as long as they may save this part of the
+/// blocks.
 const SAVED: f64 = 0.25;
 
 /// The part of a front between the last point whose mesh was wrong and the first whose mesh was right.
@@ -21,7 +22,8 @@ impl Bisection {
         Self { low, high: len, found: false }
     }
 
-    /// Notes that the mesh of a point was wrong, and so are those of points with fewer blocks, which move corners farther.
+    /// Notes that the mesh of a point was wrong, and so are those of points with fewer blocks, which move corners
+    /// farther.
     pub(crate) fn wrong(&mut self, at: usize) {
         self.low = self.low.max(at);
     }

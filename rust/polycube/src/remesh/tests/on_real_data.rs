@@ -82,7 +82,9 @@ fn numbers_of_real_pairs() {
             super::distinct(&crate::measure::base_complex(super::cells(&hexes.mesh), &Context::default()).unwrap());
         assert_eq!(blocks, case.simplified.report.after.unwrap().blocks_padded, "{}", case.name);
         println!(
-            "{} wanted {} got {} inverted {inverted} min {worst:.3} avg {mean:.3} guessed {} flipped in {} hausdorff {:.3}% | simplify {simplified} size {sized} grid {grid} quads {quad_time} hexes {hex_time} hausdorff {} total {:.2} | {:?}",
+            "{} wanted {} got {} inverted {inverted} min {worst:.3} avg {mean:.3} guessed {} \
+             flipped in {} hausdorff {:.3}% | simplify {simplified} size {sized} grid {grid} quads {quad_time} \
+             hexes {hex_time} hausdorff {} total {:.2} | {:?}",
             case.name,
             published(&name),
             hexes.mesh.cells().len(),

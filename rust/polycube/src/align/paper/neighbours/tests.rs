@@ -288,7 +288,8 @@ proptest! {
             .filter(|&(a, b)| a != b && lines(a, b).0)
             .flat_map(|(a, b)| [a, b]).collect();
         let collinear = flat.len() < 3 || flat.iter().all(|&p| lines(flat[0], flat[1]).1 || p == flat[0]);
-        let on_hull = flat.iter().filter(|&&p| hull.iter().any(|&a| p != a && (lines(a, p).0 || lines(p, a).0))).count();
+        let is_on_hull = |p: &P| hull.iter().any(|&a| *p != a && (lines(a, *p).0 || lines(*p, a).0));
+        let on_hull = flat.iter().filter(|p| is_on_hull(p)).count();
         let expected = if collinear { flat.len() - 1 } else { 3 * flat.len() - 3 - on_hull };
         prop_assert_eq!(pairs(&flat).len(), expected);
     }
