@@ -28,7 +28,6 @@ fn remesh_options(data: &RemeshOptionsData) -> polycube::Result<RemeshOptions> {
         padding: data.padding as usize,
         surface_only: data.surface_only,
         max_hausdorff: data.max_hausdorff,
-        ..RemeshOptions::default()
     })
 }
 

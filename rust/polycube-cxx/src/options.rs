@@ -3,7 +3,7 @@
 use crate::ffi::{GuidesData, OptionsData, Real, ToleranceData};
 use polycube::align::{Effort, Guides, SolverKind, Strategy, Symmetry};
 use polycube::layout::Objective;
-use polycube::simplify::Options;
+use polycube::simplify::SimplifyOptions;
 use polycube::structure::Tolerance;
 use polycube::{Error, ErrorKind, Result};
 use std::time::Duration;
@@ -35,13 +35,13 @@ impl From<Tolerance> for ToleranceData {
 ///
 /// # Errors
 /// [`ErrorKind::Option`] for a value out of its range.
-pub fn options(data: &OptionsData) -> Result<Options> {
+pub fn options(data: &OptionsData) -> Result<SimplifyOptions> {
     let effort = Effort {
         steps_per_level: data.steps_per_level,
         proof_nodes: data.proof_nodes,
         time_limit: data.time_limit.get().map(seconds).transpose()?,
     };
-    Ok(Options {
+    Ok(SimplifyOptions {
         strategy: pick(&STRATEGIES, data.strategy, "strategy")?,
         scale: data.scale.get(),
         lambda_min: data.lambda_min,
@@ -53,7 +53,7 @@ pub fn options(data: &OptionsData) -> Result<Options> {
         max_distortion: data.max_distortion.get(),
         guides: guides(&data.guides),
         tolerance: tolerance(&data.tolerance),
-        ..Options::default()
+        ..SimplifyOptions::default()
     })
 }
 
@@ -91,11 +91,11 @@ fn seconds(value: f64) -> Result<Duration> {
 
 /// The defaults of the core, for C++ to compare its own with.
 pub fn default_options() -> OptionsData {
-    defaults(&Options::default())
+    defaults(&SimplifyOptions::default())
 }
 
 /// `options` as C++ sees them, without guides.
-pub fn defaults(options: &Options) -> OptionsData {
+pub fn defaults(options: &SimplifyOptions) -> OptionsData {
     let number = |at: Option<usize>| at.unwrap_or_default() as u8;
     let objective = options.objective.and_then(|o| OBJECTIVES.iter().position(|x| *x == o));
     OptionsData {

@@ -7,7 +7,7 @@ use crate::input::Owned;
 use crate::options::options;
 use crate::run::run;
 use polycube::layout::{Counts, Pieces};
-use polycube::simplify::{self as core, Report};
+use polycube::simplify::{self as core, SimplifyReport};
 use polycube::structure::placement_of;
 use polycube::{Context, Error, ErrorKind};
 
@@ -87,8 +87,8 @@ impl From<&polycube::measure::Distortion> for DistortionData {
     }
 }
 
-impl From<&Report> for ReportData {
-    fn from(report: &Report) -> Self {
+impl From<&SimplifyReport> for ReportData {
+    fn from(report: &SimplifyReport) -> Self {
         let round = |r: &polycube::align::Round| RoundData {
             lambda: r.lambda,
             pairs: r.pairs as u64,
@@ -125,7 +125,7 @@ impl From<&Report> for ReportData {
 /// triangulations.
 pub fn corner_pairs(points: &[i64]) -> Result<Vec<u32>> {
     guard(|| {
-        let pairs = polycube::align::neighbours::neighbours(points.as_chunks::<3>().0, &Context::default())?;
+        let pairs = polycube::parts::neighbours(points.as_chunks::<3>().0, &Context::default())?;
         Ok(pairs.into_iter().flatten().collect())
     })
 }
@@ -137,7 +137,7 @@ pub fn panic_in_core(input: &InputView, stage: &str, observer: &Observer) -> Res
     let stage = stage.to_owned();
     run(observer, move |_| {
         let context = Context::new(move |now, _| assert!(now != stage, "injected into {now}"));
-        core::simplify(&owned.input(), &core::Options::default(), &context).map(|_| ())
+        core::simplify(&owned.input(), &core::SimplifyOptions::default(), &context).map(|_| ())
     })
 }
 

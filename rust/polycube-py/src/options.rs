@@ -5,7 +5,7 @@ use crate::errors;
 use polycube::align::{Effort, Guides, SolverKind, Strategy};
 use polycube::layout::Objective;
 use polycube::remesh::{RemeshOptions, Size};
-use polycube::simplify::Options;
+use polycube::simplify::SimplifyOptions;
 use polycube::structure::Tolerance;
 use pyo3::conversion::FromPyObjectOwned;
 use pyo3::exceptions::PyTypeError;
@@ -113,7 +113,7 @@ impl<'py> Keywords<'py> {
     }
 
     /// Takes how a polycube is simplified, all but its size.
-    fn method(&self) -> PyResult<Options> {
+    fn method(&self) -> PyResult<SimplifyOptions> {
         const STRATEGIES: [(&str, Strategy); 3] =
             [("best", Strategy::Best), ("paper", Strategy::Paper), ("naive", Strategy::Naive)];
         const OBJECTIVES: [(&str, Objective); 3] = [
@@ -122,7 +122,7 @@ impl<'py> Keywords<'py> {
             ("surface_patches", Objective::SurfacePatches),
         ];
         const SOLVERS: [(&str, SolverKind); 2] = [("exact", SolverKind::Exact), ("linear", SolverKind::Linear)];
-        Ok(Options {
+        Ok(SimplifyOptions {
             strategy: self.word("strategy", &STRATEGIES)?.unwrap_or_default(),
             scale: None,
             lambda_min: self.take("lambda_min")?.unwrap_or(0.0),
@@ -134,7 +134,7 @@ impl<'py> Keywords<'py> {
             max_distortion: self.take("max_distortion")?,
             guides: self.guides()?,
             tolerance: self.tolerance()?,
-            ..Options::default()
+            ..SimplifyOptions::default()
         })
     }
 
@@ -165,7 +165,7 @@ impl<'py> Keywords<'py> {
     }
 
     /// Takes how a polycube is simplified.
-    pub fn simplify(&self) -> PyResult<Options> {
+    pub fn simplify(&self) -> PyResult<SimplifyOptions> {
         let (scale, length) = (self.take("scale")?, self.positive("edge_length")?);
         if scale.is_some() && length.is_some() {
             return Err(errors::option(
@@ -174,7 +174,7 @@ impl<'py> Keywords<'py> {
                 "give one of them",
             ));
         }
-        let options = Options { scale: scale.or(length.map(f64::recip)), ..self.method()? };
+        let options = SimplifyOptions { scale: scale.or(length.map(f64::recip)), ..self.method()? };
         options.check().map_err(|e| errors::raise(self.py(), &e, None))?;
         Ok(options)
     }
@@ -188,7 +188,6 @@ impl<'py> Keywords<'py> {
             surface_only: self.take("surface_only")?.unwrap_or(false),
             max_hausdorff: self.positive("max_hausdorff")?.map_or(default.max_hausdorff, |percent| percent / 100.0),
             simplify: self.method()?,
-            ..default
         };
         options.check().map_err(|e| errors::raise(self.py(), &e, None))?;
         Ok(options)

@@ -8,7 +8,7 @@ use crate::structure::{PyCounts, PyStructure};
 use crate::work::{Failure, Listener};
 use polycube::Context;
 use polycube::mesh::Mesh;
-use polycube::simplify::{Input, Options, Simplified, simplify as run};
+use polycube::simplify::{Input, Simplified, SimplifyOptions, simplify as run};
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
 use std::sync::{Arc, OnceLock};
@@ -44,7 +44,7 @@ impl Source {
         Failure::new(error, &self.polycube)
     }
 
-    fn simplify(self, options: Options, context: &Context) -> Result<PySimplified, Failure> {
+    fn simplify(self, options: SimplifyOptions, context: &Context) -> Result<PySimplified, Failure> {
         let result = run(&self.input(), &options, context).map_err(|e| self.failure(e))?;
         Ok(PySimplified::new(result, self))
     }

@@ -55,11 +55,11 @@ struct Parts {
     faces: Vec<u32>,
     columns: usize,
     labels: Vec<i8>,
-    rows: Rows,
+    rows: FlatRows,
 }
 
 /// The columns of the structure's tables.
-struct Rows {
+struct FlatRows {
     corners: Vec<u32>,
     corner_valence: Vec<u32>,
     corner_levels: Vec<u32>,
@@ -69,7 +69,7 @@ struct Rows {
     level_axis: Vec<u8>,
 }
 
-impl Rows {
+impl FlatRows {
     fn new(polycube: &Polycube) -> Self {
         let structure = &polycube.structure;
         let (corners, facets) = (&structure.corners, &structure.facets);
@@ -96,7 +96,7 @@ impl PyStructure {
             columns: faces.len() / polycube.surface.faces().len().max(1),
             faces,
             labels: polycube.labels().map(|l| l.index() as i8).collect(),
-            rows: Rows::new(&polycube),
+            rows: FlatRows::new(&polycube),
             polycube,
         };
         Self(Arc::new(parts))

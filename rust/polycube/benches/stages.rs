@@ -10,12 +10,10 @@ mod models;
 
 use criterion::{BenchmarkId, Criterion, criterion_group, criterion_main};
 use polycube::Context;
-use polycube::align::neighbours::neighbours;
-use polycube::align::{Options, Strategy, align};
-use polycube::generate::random_with_corners;
+use polycube::align::Strategy;
 use polycube::layout::count;
-use polycube::map::morph;
 use polycube::mesh::{CellKind, Mesh};
+use polycube::parts::{AlignOptions, align, morph, neighbours, random_with_corners};
 use polycube::structure::{Arrangement, Polycube, Tolerance};
 use std::time::Duration;
 
@@ -39,7 +37,7 @@ fn stages(criterion: &mut Criterion, name: &str, mesh: &Mesh) {
     // A search of 10,000 corners takes minutes.
     let strategies = if corners.len() < 2000 { &[Strategy::Paper, Strategy::Best][..] } else { &[Strategy::Paper] };
     for &strategy in strategies {
-        let options = Options { strategy, ..Options::default() };
+        let options = AlignOptions { strategy, ..AlignOptions::default() };
         let run = || align(structure, placement, &options, &context);
         group.bench_function(format!("align, {strategy:?}"), |b| b.iter(run));
     }

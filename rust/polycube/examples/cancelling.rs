@@ -8,7 +8,7 @@
 
 use polycube::mesh::{read, read_pair};
 use polycube::remesh::{RemeshOptions, Size, remesh};
-use polycube::simplify::{Input, Options, simplify};
+use polycube::simplify::{Input, SimplifyOptions, simplify};
 use polycube::{Context, Result};
 use std::path::Path;
 use std::sync::atomic::{AtomicBool, Ordering};
@@ -67,7 +67,7 @@ fn main() -> std::result::Result<(), Box<dyn std::error::Error>> {
     let hexes = rest.get(1).map_or(Ok(10_000), |n| n.parse())?;
     let moments = rest.get(2).map_or(Ok(20), |n| n.parse())?;
     let input = Input { polycube: &polycube, shape: shape.as_ref(), labels: None };
-    measure("simplify", moments, |context| simplify(&input, &Options::default(), context).map(drop));
+    measure("simplify", moments, |context| simplify(&input, &SimplifyOptions::default(), context).map(drop));
     let options = RemeshOptions { size: Some(Size::Hexes(hexes)), ..RemeshOptions::default() };
     measure("remesh", moments, |context| remesh(&input, &options, context).map(drop));
     Ok(())

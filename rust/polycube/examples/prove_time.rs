@@ -1,13 +1,11 @@
 //! How far the proof of the fewest blocks gets on a polycube: `prove_time FILE [NODES [SECONDS [all]]]`. Instead of a
 //! file, `random:SEED:BOXES:EXTENT` is a generated polycube; `all` proves all three objectives.
 
-use polycube::align::prove::prove;
-use polycube::align::ranks::Ranks;
-use polycube::align::{Options, align};
 use polycube::generate::random_polycube;
 use polycube::layout::Objective;
 use polycube::mesh::CellKind;
 use polycube::mesh::Mesh;
+use polycube::parts::{AlignOptions, Ranks, align, prove};
 use polycube::structure::{Polycube, Tolerance, placement_of};
 use std::time::{Duration, Instant};
 
@@ -21,7 +19,7 @@ fn main() {
     let polycube = Polycube::new(&mesh, None, &Tolerance::default()).expect("a polycube");
     let s = &polycube.structure;
     let context = polycube::Context::default();
-    let aligned = align(s, &polycube.placement, &Options::default(), &context).expect("an alignment");
+    let aligned = align(s, &polycube.placement, &AlignOptions::default(), &context).expect("an alignment");
     let levels = placement_of(&aligned.levels);
     let start = Ranks::new(s, &levels);
     let of_axis = [0, 1, 2].map(|a| s.levels.iter().filter(|l| l.axis == a).count());

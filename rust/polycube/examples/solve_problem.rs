@@ -5,8 +5,7 @@
 //! ```
 
 use polycube::Context;
-use polycube::align::problem::Problem;
-use polycube::align::solve::{ExactSolver, LinearSolver, Solver};
+use polycube::parts::{ExactSolver, LinearSolver, Problem, Solver};
 use std::error::Error;
 use std::hint::black_box;
 use std::time::Instant;

@@ -13,12 +13,11 @@
 //! Times are in milliseconds: the shortest run or, where that is less because the machine was busy with other work, the
 //! mean processor time of all runs, over all threads.
 
-use polycube::align::neighbours::neighbours;
-use polycube::align::{Options, Strategy, align};
-use polycube::generate::{Example, SplitMix64, random_with_corners};
+use polycube::align::Strategy;
+use polycube::generate::Example;
 use polycube::layout::count;
-use polycube::map::morph;
 use polycube::mesh::{CellKind, Mesh, read, write};
+use polycube::parts::{AlignOptions, SplitMix64, align, morph, neighbours, random_with_corners};
 use polycube::simplify::simplify;
 use polycube::structure::{Arrangement, Polycube, Tolerance};
 use polycube::{Context, Error, ErrorKind, Input, Result};
@@ -69,7 +68,7 @@ fn stages(mesh: &Mesh) -> Result<Value> {
     }
     let arrange = || Arrangement::new(&polycube.structure, &polycube.placement);
     let (_, counted) = best(|| Ok(count(&arrange())))?;
-    let options = Options { strategy: Strategy::Paper, ..Options::default() };
+    let options = AlignOptions { strategy: Strategy::Paper, ..AlignOptions::default() };
     let run = || align(&polycube.structure, &polycube.placement, &options, &Context::default());
     let (result, aligned) = best(run)?;
     Ok(json!({
@@ -99,7 +98,7 @@ fn tetrahedra(count: &str) -> Result<Value> {
     let step = (5.0 * voxels.volume() / number(count)? as f64).cbrt();
     let mesh = voxels.mesh(CellKind::Tetrahedra, step)?;
     let input = Input { polycube: &mesh, shape: None, labels: None };
-    let options = polycube::Options { strategy: Strategy::Paper, ..Default::default() };
+    let options = polycube::SimplifyOptions { strategy: Strategy::Paper, ..Default::default() };
     let (_, time) = best(|| simplify(&input, &options, &Context::default()))?;
     Ok(json!({ "tetrahedra": mesh.cells().len(), "simplify": time, "peak_mb": memory() }))
 }
@@ -150,7 +149,7 @@ fn memory() -> f64 {
 fn front(file: &str, shape: &str) -> Result<()> {
     let (mesh, shape) = (read(Path::new(file))?, read(Path::new(shape))?);
     let input = Input { polycube: &mesh, shape: Some(&shape), labels: None };
-    let found = simplify(&input, &polycube::Options::default(), &Context::default())?;
+    let found = simplify(&input, &polycube::SimplifyOptions::default(), &Context::default())?;
     let last = found.report.front.len().saturating_sub(1);
     for index in 0..=last {
         let simplicity = 1.0 - index as f64 / last.max(1) as f64;

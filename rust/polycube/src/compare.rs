@@ -73,7 +73,7 @@ pub struct Gain {
 /// Without simplification every level is rounded to the lattice, as usual pipelines do (`Strategy::Naive`); where that
 /// breaks the polycube, the levels keep the order they have and a note says so. `options.size` says how fine that mesh
 /// is. The other one follows `options` but for the size: it has as many hexahedra as the first as nearly as the lattice
-/// allows (see [`scale_for`](crate::remesh::scale_for)), so that the two compare.
+/// allows (see `scale_for`, so that the two compare.
 ///
 /// ```
 /// use polycube::compare::compare;

@@ -24,7 +24,7 @@ struct Shared {
 /// use polycube::generate::{Example, example};
 /// use polycube::mesh::CellKind;
 /// use polycube::simplify::simplify;
-/// use polycube::{Context, ErrorKind, Input, Options};
+/// use polycube::{Context, ErrorKind, Input, SimplifyOptions};
 ///
 /// let context = Context::new(|stage, progress| eprintln!("{stage}: {:.0} %", 100.0 * progress));
 /// // A clone is for the button or signal handler that stops the work, on any thread.
@@ -33,7 +33,7 @@ struct Shared {
 ///
 /// let (cube, _) = example(Example::Ring, 1, CellKind::Quads)?;
 /// let input = Input { polycube: &cube, shape: None, labels: None };
-/// let stopped = simplify(&input, &Options::default(), &context);
+/// let stopped = simplify(&input, &SimplifyOptions::default(), &context);
 /// assert_eq!(stopped.unwrap_err().kind, ErrorKind::Cancelled);
 /// # Ok::<(), polycube::Error>(())
 /// ```

@@ -1,7 +1,7 @@
 //! Turn a polycube into the coarsest good block structure there is.
 //!
 //! [`simplify`](simplify::simplify) is the way in, [`remesh`](remesh::remesh) goes on to quadrilaterals and hexahedra.
-//! Data flows one way: [`mesh`] → [`structure`] → [`layout`] → [`align`] → [`map`] → [`optimise`] → [`mod@simplify`] →
+//! Data flows one way: [`mesh`] → [`structure`] → [`layout`] → [`align`] → `map` → `optimise` → [`mod@simplify`] →
 //! [`mod@remesh`] → [`mod@compare`]. Beside it stand [`mod@validate`], which lists all that is wrong with an input, and
 //! [`generate`], which makes examples.
 //!
@@ -13,12 +13,12 @@
 //! use polycube::generate::{Example, example};
 //! use polycube::mesh::{CellKind, Format, write_bytes};
 //! use polycube::simplify::simplify;
-//! use polycube::{Context, Input, Options};
+//! use polycube::{Context, Input, SimplifyOptions};
 //!
 //! // `polycube::mesh::read` reads your own.
 //! let (cube, shape) = example(Example::Ring, 1, CellKind::Quads)?;
 //! let input = Input { polycube: &cube, shape: Some(&shape), labels: None };
-//! let simple = simplify(&input, &Options::default(), &Context::default())?;
+//! let simple = simplify(&input, &SimplifyOptions::default(), &Context::default())?;
 //!
 //! let after = simple.report.after.expect("only `naive` gives results without counts");
 //! assert!(after.blocks_padded < simple.report.before.blocks_padded);
@@ -34,10 +34,12 @@ pub mod error;
 pub mod generate;
 pub mod layout;
 pub mod make;
-pub mod map;
+mod map;
 pub mod measure;
 pub mod mesh;
-pub mod optimise;
+mod optimise;
+#[doc(hidden)]
+pub mod parts;
 mod range;
 pub mod remesh;
 mod rng;
@@ -52,4 +54,4 @@ mod data;
 
 pub use context::Context;
 pub use error::{Error, ErrorKind, Place, Result};
-pub use simplify::{Input, Options, Report, Simplified};
+pub use simplify::{Input, Simplified, SimplifyOptions, SimplifyReport};

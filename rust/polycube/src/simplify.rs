@@ -1,6 +1,6 @@
 //! The whole method: read the structure, align it, morph the mesh onto the result, and say what happened.
 
-use crate::align::{self, Alignment, Effort, Guides, SolverKind, Strategy};
+use crate::align::{self, Alignment, Effort, Guides, Round, SolverKind, Strategy};
 use crate::context::Context;
 use crate::error::{Error, ErrorKind, Place, Result};
 use crate::layout::{Objective, count};
@@ -20,14 +20,13 @@ mod report;
 mod tests;
 mod untangling;
 
-pub use compatibility::LARGEST_COORDINATE;
 pub(crate) use compatibility::{Misfit, check_compatible, check_side};
 pub(crate) use corner_tetrahedra::CornerTetrahedra;
 pub(crate) use diagnosis::remedy;
 use diagnosis::{diagnose, first_of_many};
 pub use front::Located;
 pub use note::{Cause, Note};
-pub use report::{Report, Seconds};
+pub use report::{Seconds, SimplifyReport};
 pub(crate) use untangling::untangle_morphed;
 
 /// What is simplified.
@@ -43,7 +42,7 @@ pub struct Input<'a> {
 
 /// How it is simplified.
 #[derive(Clone, Debug, Default, PartialEq)]
-pub struct Options {
+pub struct SimplifyOptions {
     /// How the levels find their places.
     pub strategy: Strategy,
     /// Lattice steps per unit of the polycube. By default 1 if all levels are integers, else such that a lattice step
@@ -74,7 +73,7 @@ pub struct Options {
     pub tolerance: Tolerance,
 }
 
-impl Options {
+impl SimplifyOptions {
     /// Refuses what is out of its range. [`simplify`] does so before anything else.
     ///
     /// # Errors
@@ -90,8 +89,8 @@ impl Options {
     }
 
     /// The options of the alignment on a lattice with `scale` steps per unit.
-    fn alignment(&self, scale: f64) -> align::Options {
-        align::Options {
+    fn alignment(&self, scale: f64) -> align::AlignOptions {
+        align::AlignOptions {
             strategy: self.strategy,
             scale,
             lambda_min: self.lambda_min,
@@ -115,9 +114,9 @@ pub struct Simplified {
     /// The lattice coordinate of every level.
     pub levels: Vec<i64>,
     /// What was done.
-    pub report: Report,
+    pub report: SimplifyReport,
     /// How it was asked to be done, with the objective that was chosen and the guides by their facets.
-    pub options: Options,
+    pub options: SimplifyOptions,
 }
 
 /// Reads the structure of a valid polycube and checks that shape and labels fit it.
@@ -125,7 +124,7 @@ pub struct Simplified {
 /// # Errors
 /// The first violation, with the number of others, as [`ErrorKind::Mesh`] or [`ErrorKind::Polycube`];
 /// [`ErrorKind::Mismatch`] if shape or labels do not fit; [`ErrorKind::Option`] for a number that is no label;
-/// [`ErrorKind::Mesh`] for a shape that is mirrored and for coordinates beyond [`LARGEST_COORDINATE`];
+/// [`ErrorKind::Mesh`] for a shape that is mirrored and for coordinates beyond `LARGEST_COORDINATE`;
 /// [`ErrorKind::Option`] for a
 /// tolerance out of its range.
 pub fn read_structure(input: &Input, tolerance: &Tolerance) -> Result<Polycube> {
@@ -155,7 +154,7 @@ fn read_in_steps(input: &Input, tolerance: &Tolerance, context: &Context) -> Res
 /// # Errors
 /// [`ErrorKind::Option`] for an option out of its range; those of [`read_structure`] and [`align::align`];
 /// [`ErrorKind::Cancelled`].
-pub fn simplify(input: &Input, options: &Options, context: &Context) -> Result<Simplified> {
+pub fn simplify(input: &Input, options: &SimplifyOptions, context: &Context) -> Result<Simplified> {
     let start = Instant::now();
     options.check()?;
     let polycube = read_in_steps(input, &options.tolerance, &context.stage("structure", 0.0, 0.1))?;
@@ -163,11 +162,11 @@ pub fn simplify(input: &Input, options: &Options, context: &Context) -> Result<S
     let structured = start.elapsed().as_secs_f64();
     let objective = options.objective.unwrap_or_else(|| default_objective(input.polycube));
     let guides = options.guides.by_facets(&polycube)?;
-    let options = Options { objective: Some(objective), guides, ..options.clone() };
+    let options = SimplifyOptions { objective: Some(objective), guides, ..options.clone() };
     let aligning = context.stage("align", 0.1, 0.5);
     let alignment = align::align(&polycube.structure, &polycube.placement, &options.alignment(scale), &aligning)?;
     let aligned = start.elapsed().as_secs_f64();
-    let mut report = Report::new(&polycube, &alignment, options.strategy, scale);
+    let mut report = SimplifyReport::new(&polycube, &alignment, options.strategy, scale);
     if options.strategy == Strategy::Best && alignment.bound.is_none() {
         report.notes.push(Note::Unsearched);
     }
@@ -201,7 +200,7 @@ impl Simplified {
     /// `input` must be what was simplified. Much faster than [`simplify`]: the order of the levels is known.
     ///
     /// # Errors
-    /// [`ErrorKind::Mismatch`] if `input` has other cells; those of [`align::rescale`]; [`ErrorKind::Cancelled`].
+    /// [`ErrorKind::Mismatch`] if `input` has other cells; those of `align::rescale`; [`ErrorKind::Cancelled`].
     pub fn rescaled(&self, input: &Input, scale: f64, context: &Context) -> Result<Self> {
         self.check_input(input)?;
         let start = Instant::now();
@@ -214,7 +213,7 @@ impl Simplified {
         let (rounds, front, chosen, bound) = (old.rounds.clone(), old.front.clone(), old.chosen, old.bound);
         let alignment = Alignment { levels, before: old.before, after, rounds, broken, front, chosen, bound };
         let aligned = start.elapsed().as_secs_f64();
-        let mut report = Report::new(polycube, &alignment, old.strategy, scale);
+        let mut report = SimplifyReport::new(polycube, &alignment, old.strategy, scale);
         report.notes.extend(old.notes.iter().filter(|n| n.is_of_order()).cloned());
         report.note_displacement(&self.options, old.cause_of_displacement().unwrap_or(Cause::Scale));
         let morphing = context.stage("morph", 0.2, 1.0);
@@ -227,6 +226,15 @@ impl Simplified {
 }
 
 impl Simplified {
+    /// The levels after a round of Algorithm 1 on the lattice of this result, without any guides.
+    ///
+    /// # Errors
+    /// [`ErrorKind::Option`] for a scale that is too large for the lattice; [`ErrorKind::Cancelled`].
+    pub fn levels_after(&self, round: &Round, context: &Context) -> Result<Vec<i64>> {
+        let Polycube { structure, placement, .. } = &self.input;
+        align::rescale(structure, placement, &round.levels, self.report.scale, &Guides::default(), context)
+    }
+
     /// The levels in the same order as near as possible to `targets` times `scale`; where the order does not matter,
     /// `targets` rounded.
     ///
@@ -246,8 +254,8 @@ fn finish(
     input: &Input,
     polycube: Polycube,
     levels: Vec<i64>,
-    mut report: Report,
-    options: &Options,
+    mut report: SimplifyReport,
+    options: &SimplifyOptions,
     context: &Context,
 ) -> Result<Simplified> {
     let mut result = None;

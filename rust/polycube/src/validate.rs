@@ -80,7 +80,7 @@ impl Finding {
 /// ```
 ///
 /// # Errors
-/// [`ErrorKind::Option`](crate::ErrorKind::Option) for a tolerance out of its range.
+/// [`ErrorKind::Option`] for a tolerance out of its range.
 pub fn validate(input: &Input, tolerance: &Tolerance) -> Result<Vec<Finding>> {
     tolerance.check()?;
     let misfit = check_compatible(input).err();
@@ -207,14 +207,14 @@ mod tests {
     use crate::context::Context;
     use crate::generate::{Example, example};
     use crate::mesh::{CellKind, Cells};
-    use crate::simplify::{Options, simplify};
+    use crate::simplify::{SimplifyOptions, simplify};
 
     #[test]
     fn a_shape_that_does_not_fit_is_named() {
         let (polycube, shape) = example(Example::CubeSpikes, 1, CellKind::Triangles).unwrap();
         let told = |shape: &Mesh| {
             let input = Input { polycube: &polycube, shape: Some(shape), labels: None };
-            let error = simplify(&input, &Options::default(), &Context::default()).unwrap_err();
+            let error = simplify(&input, &SimplifyOptions::default(), &Context::default()).unwrap_err();
             let found = validate(&input, &Tolerance::default()).unwrap();
             assert_eq!((found[0].mesh, &found[0].message), (Subject::Shape, &error.message));
             (found[0].rule, error.kind, error.place)

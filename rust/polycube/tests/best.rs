@@ -5,15 +5,16 @@ mod common;
 use common::models::models;
 use common::{cases, coarse, dense, read};
 use polycube::Context;
-use polycube::align::{Alignment, Effort, Options, Strategy, align};
-use polycube::generate::{Cuboid, Example, Voxels, example, random_polycube, random_with_corners};
+use polycube::align::{Effort, Strategy};
+use polycube::generate::{Cuboid, Example, Voxels, example, random_polycube};
 use polycube::layout::Objective;
 use polycube::mesh::CellKind;
+use polycube::parts::{AlignOptions, Alignment, align, random_with_corners};
 use polycube::structure::{Polycube, Tolerance, placement_of};
 
 const OBJECTIVES: [Objective; 3] = [Objective::BlocksPadded, Objective::Blocks, Objective::SurfacePatches];
 
-fn run(polycube: &Polycube, options: &Options) -> Alignment {
+fn run(polycube: &Polycube, options: &AlignOptions) -> Alignment {
     align(&polycube.structure, &polycube.placement, options, &Context::default()).expect("a valid polycube aligns")
 }
 
@@ -27,9 +28,9 @@ fn best_is_valid_and_never_worse_than_the_paper_for_any_objective() {
         let polycube = read(&coarse(&random_polycube(seed, 7, 12).expect("boxes fit"), CellKind::Quads));
         for objective in OBJECTIVES {
             let effort = Effort { steps_per_level: 50, ..Effort::default() };
-            let options = Options { objective, effort, ..Options::default() };
+            let options = AlignOptions { objective, effort, ..AlignOptions::default() };
             let best = run(&polycube, &options);
-            let paper = run(&polycube, &Options { strategy: Strategy::Paper, ..options.clone() });
+            let paper = run(&polycube, &AlignOptions { strategy: Strategy::Paper, ..options.clone() });
             assert!(counted(&best, objective) <= counted(&paper, objective), "seed {seed}, {objective:?}");
             assert!(counted(&best, objective) <= best.before.of(objective), "seed {seed}, {objective:?}");
             assert_eq!(dense::check(&polycube.structure, &best.levels), Ok(()));
@@ -41,7 +42,7 @@ fn best_is_valid_and_never_worse_than_the_paper_for_any_objective() {
 fn best_gives_the_same_levels_again() {
     let (mesh, _) = example(Example::CubeSpikes, 5, CellKind::Triangles).expect("the example exists");
     let polycube = read(&mesh);
-    let [one, two] = [(); 2].map(|()| run(&polycube, &Options::default()));
+    let [one, two] = [(); 2].map(|()| run(&polycube, &AlignOptions::default()));
     assert_eq!(one, two);
     assert_eq!(counted(&one, Objective::BlocksPadded), 111);
 }
@@ -50,18 +51,18 @@ fn best_gives_the_same_levels_again() {
 fn the_front_trades_blocks_for_displacement() {
     let (mesh, _) = example(Example::Ring, 3, CellKind::Triangles).expect("the example exists");
     let polycube = read(&mesh);
-    let coarsest = run(&polycube, &Options::default());
+    let coarsest = run(&polycube, &AlignOptions::default());
     let pairs = coarsest.front.windows(2);
     assert!(coarsest.front.len() >= 2, "there is something to choose");
     assert!(pairs.clone().all(|p| p[0].count < p[1].count && p[0].displacement > p[1].displacement));
-    let nearest = run(&polycube, &Options { simplicity: 0.0, ..Options::default() });
+    let nearest = run(&polycube, &AlignOptions { simplicity: 0.0, ..AlignOptions::default() });
     assert!(counted(&nearest, Objective::BlocksPadded) > counted(&coarsest, Objective::BlocksPadded));
     let moved = |a: &Alignment| {
         let levels = placement_of(&a.levels);
         polycube.structure.max_displacement(&polycube.placement, &levels)
     };
     let limit = f64::midpoint(moved(&nearest), moved(&coarsest));
-    let bounded = run(&polycube, &Options { max_displacement: Some(limit), ..Options::default() });
+    let bounded = run(&polycube, &AlignOptions { max_displacement: Some(limit), ..AlignOptions::default() });
     assert!(moved(&bounded) <= limit, "{} > {limit}", moved(&bounded));
 }
 
@@ -72,11 +73,11 @@ fn the_front_ends_at_the_input_on_a_lattice_that_holds_it() {
     let boxes: Vec<Cuboid> = boxes.iter().map(|b| Cuboid::new(b.0, b.1)).collect();
     let polycube = read(&coarse(&Voxels::from_boxes(&boxes).expect("boxes"), CellKind::Quads));
     let whole: Vec<i64> = polycube.placement.iter().map(|&x| x as i64).collect();
-    let coarsest = run(&polycube, &Options::default());
+    let coarsest = run(&polycube, &AlignOptions::default());
     assert!(counted(&coarsest, Objective::BlocksPadded) < coarsest.before.blocks_padded);
     let near = [
-        Options { simplicity: 0.0, ..Options::default() },
-        Options { max_displacement: Some(0.01), ..Options::default() },
+        AlignOptions { simplicity: 0.0, ..AlignOptions::default() },
+        AlignOptions { max_displacement: Some(0.01), ..AlignOptions::default() },
     ];
     for options in near {
         let found = run(&polycube, &options);
@@ -103,7 +104,7 @@ fn no_step_of_the_front_is_half_of_the_way_from_the_fewest_blocks_to_the_input()
     for (name, mesh) in random.chain(models()) {
         let polycube = Polycube::new(&mesh, None, &Tolerance::default()).expect("the model is a polycube");
         let effort = Effort { steps_per_level: 100, proof_nodes: 0, ..Effort::default() };
-        let found = run(&polycube, &Options { effort, ..Options::default() });
+        let found = run(&polycube, &AlignOptions { effort, ..AlignOptions::default() });
         let pairs = || found.front.windows(2);
         assert!(pairs().all(|p| p[0].count < p[1].count && p[0].displacement > p[1].displacement), "{name}");
         if found.front[found.front.len() - 1].count >= found.front[0].count + 100 {
@@ -140,7 +141,7 @@ fn real_polycubes_get_as_coarse_as_asked() {
         let most = REACHED.iter().find(|(n, _)| *n == name).map_or(usize::MAX, |(_, most)| *most);
         let polycube = Polycube::new(&mesh, None, &Tolerance::default()).expect("the model is a polycube");
         let effort = Effort { steps_per_level: 100, ..Effort::default() };
-        let best = run(&polycube, &Options { effort, ..Options::default() });
+        let best = run(&polycube, &AlignOptions { effort, ..AlignOptions::default() });
         assert!(counted(&best, Objective::BlocksPadded) <= most, "{name}: {:?}", best.after);
         assert_eq!(dense::check(&polycube.structure, &best.levels), Ok(()));
     }
@@ -161,7 +162,7 @@ fn two_solids(seed: u64) -> [Polycube; 3] {
 #[test]
 fn solids_that_never_meet_count_as_much_together_as_alone() {
     let effort = Effort { steps_per_level: 50, ..Effort::default() };
-    let options = Options { effort, ..Options::default() };
+    let options = AlignOptions { effort, ..AlignOptions::default() };
     for seed in 0..cases(40) {
         let polycubes = two_solids(seed);
         let [one, two, both] = polycubes.each_ref().map(|p| run(p, &options));
@@ -182,8 +183,8 @@ fn polycubes_of_a_thousand_corners_are_searched() {
     let levels = |axis: usize| polycube.structure.levels.iter().filter(|l| l.axis == axis).count();
     assert!((0..3).all(|axis| levels(axis) > 126), "{:?}", [0, 1, 2].map(levels));
     let effort = Effort { steps_per_level: 1, proof_nodes: 0, ..Effort::default() };
-    let best = run(&polycube, &Options { effort, ..Options::default() });
-    let paper = run(&polycube, &Options { strategy: Strategy::Paper, ..Options::default() });
+    let best = run(&polycube, &AlignOptions { effort, ..AlignOptions::default() });
+    let paper = run(&polycube, &AlignOptions { strategy: Strategy::Paper, ..AlignOptions::default() });
     let [best_count, paper_count] = [&best, &paper].map(|r| counted(r, Objective::BlocksPadded));
     println!("{} before, {paper_count} by Algorithm 1, {best_count} by the search", best.before.blocks_padded);
     assert!(best_count < paper_count, "{best_count} and {paper_count}");

@@ -3,9 +3,10 @@
 mod common;
 
 use common::{coarse, hexes, read};
-use polycube::generate::{Cuboid, Example, Voxels, cube_spikes, random_polycube};
+use polycube::generate::{Cuboid, Example, Voxels, random_polycube};
 use polycube::layout::{Counts, count};
 use polycube::mesh::{CellKind, Cells};
+use polycube::parts::cube_spikes;
 use polycube::structure::Arrangement;
 
 fn counts(voxels: &Voxels) -> Counts {

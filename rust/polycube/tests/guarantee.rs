@@ -5,11 +5,12 @@ mod common;
 use common::{bits, cases, coarse, dense, labels, paper, read, simplify};
 use nalgebra::Vector3;
 use polycube::align::{Effort, Strategy};
-use polycube::generate::{perturb, random_polycube, random_with_corners, scale, symmetries, transform, translate};
+use polycube::generate::random_polycube;
 use polycube::layout::Objective;
 use polycube::mesh::{CellKind, Format, Mesh, write_bytes};
+use polycube::parts::{perturb, random_with_corners, scale, symmetries, transform, translate};
 use polycube::structure::{Structure, placement_of};
-use polycube::{Context, Input, Options, Simplified};
+use polycube::{Context, Input, Simplified, SimplifyOptions};
 use proptest::prelude::*;
 
 /// A random polycube; the seeds run through few and many boxes, dense and sparse.
@@ -19,7 +20,7 @@ fn sample(seed: u64, kind: CellKind) -> Mesh {
 }
 
 /// Simplifies and checks the result on the lattice.
-fn checked(mesh: &Mesh, options: &Options, what: &str) -> Simplified {
+fn checked(mesh: &Mesh, options: &SimplifyOptions, what: &str) -> Simplified {
     let result = simplify(mesh, options).unwrap_or_else(|e| panic!("{what}: {e}"));
     assert_good(&result, what);
     result
@@ -62,7 +63,7 @@ fn random_polycubes_stay_valid_and_get_no_more_blocks() {
 fn searched_polycubes_stay_valid_and_get_no_more_blocks() {
     let effort = Effort { steps_per_level: 50, ..Effort::default() };
     for objective in [Objective::BlocksPadded, Objective::SurfacePatches] {
-        let options = Options { effort, objective: Some(objective), ..Options::default() };
+        let options = SimplifyOptions { effort, objective: Some(objective), ..SimplifyOptions::default() };
         for seed in 0..cases(10) {
             checked(&sample(seed, CellKind::Quads), &options, &format!("seed {seed}, {objective:?}"));
         }
@@ -89,7 +90,7 @@ fn polycubes_off_the_lattice_stay_valid_at_any_scale() {
         let mesh = scale(&sample(seed, CellKind::Quads), 0.37).unwrap();
         let moved = perturb(&mesh, &labels(&read(&mesh)), 0.45, seed).unwrap();
         for steps in [None, Some(0.2), Some(1.0), Some(4.7)] {
-            let options = Options { scale: steps, ..paper() };
+            let options = SimplifyOptions { scale: steps, ..paper() };
             checked(&moved, &options, &format!("seed {seed} at {steps:?}"));
         }
     }
@@ -124,9 +125,9 @@ fn translation_by_whole_steps_moves_the_result() {
 fn uniform_scaling_with_its_inverse_scale_changes_no_level() {
     for seed in 0..cases(150) {
         let mesh = sample(seed, CellKind::Quads);
-        let one = checked(&mesh, &Options { scale: Some(2.0), ..paper() }, "as it is");
+        let one = checked(&mesh, &SimplifyOptions { scale: Some(2.0), ..paper() }, "as it is");
         for factor in [0.125, 4.0] {
-            let options = Options { scale: Some(2.0 / factor), ..paper() };
+            let options = SimplifyOptions { scale: Some(2.0 / factor), ..paper() };
             let other = checked(&scale(&mesh, factor).unwrap(), &options, "scaled");
             assert_eq!(other.levels, one.levels, "seed {seed} times {factor}");
         }
@@ -198,7 +199,7 @@ fn a_bound_of_lambda_trades_blocks_for_fidelity() {
     for seed in 0..cases(150) {
         let mesh = sample(seed, CellKind::Quads);
         for (sum, lambda_min) in blocks.iter_mut().zip([1.0, 0.5, 0.125, 0.0]) {
-            let result = checked(&mesh, &Options { lambda_min, ..paper() }, &format!("seed {seed}"));
+            let result = checked(&mesh, &SimplifyOptions { lambda_min, ..paper() }, &format!("seed {seed}"));
             *sum += result.report.after.map_or(0, |c| c.blocks_padded);
             assert!(result.report.rounds.iter().all(|r| r.lambda >= lambda_min), "seed {seed}");
         }
@@ -213,7 +214,7 @@ fn naive_rounding_is_valid_or_says_that_it_is_not() {
     let mut broken = 0;
     for seed in 0..cases(600) {
         let mesh = sample(seed, CellKind::Quads);
-        let options = Options { strategy: Strategy::Naive, scale: Some(0.3), ..paper() };
+        let options = SimplifyOptions { strategy: Strategy::Naive, scale: Some(0.3), ..paper() };
         let result = simplify(&mesh, &options).unwrap();
         let independent = dense::check(&result.input.structure, &result.levels);
         assert_eq!(result.report.valid, independent.is_ok(), "seed {seed}: {independent:?}");
@@ -238,7 +239,7 @@ proptest! {
         let turned = transform(&mesh, &symmetries()[symmetry]).unwrap();
         let moved = perturb(&turned, &labels(&read(&turned)), fraction, seed).unwrap();
         let placed = scale(&translate(&moved, Vector3::from(by)).unwrap(), size).unwrap();
-        let options = Options { scale: steps.map(|s| s / size), ..paper() };
+        let options = SimplifyOptions { scale: steps.map(|s| s / size), ..paper() };
         checked(&placed, &options, "random");
     }
 }

@@ -8,14 +8,14 @@ use polycube::generate::{Cuboid, Example, Voxels, example, random_polycube};
 use polycube::mesh::{CellKind, Mesh};
 use polycube::simplify::{Cause, Note};
 use polycube::structure::Polycube;
-use polycube::{Context, Error, ErrorKind, Input, Options, Place, Simplified};
+use polycube::{Context, Error, ErrorKind, Input, Place, Simplified, SimplifyOptions};
 use proptest::prelude::*;
 
 const VALID: [Strategy; 2] = [Strategy::Paper, Strategy::Best];
 
-fn options(strategy: Strategy, guides: Guides) -> Options {
+fn options(strategy: Strategy, guides: Guides) -> SimplifyOptions {
     let effort = Effort { steps_per_level: 40, proof_nodes: 20, ..Effort::default() };
-    Options { strategy, guides, effort, scale: Some(2.0), ..Options::default() }
+    SimplifyOptions { strategy, guides, effort, scale: Some(2.0), ..SimplifyOptions::default() }
 }
 
 fn spikes() -> Mesh {
@@ -84,7 +84,7 @@ fn facets_that_must_not_move_stay() {
     for strategy in [Strategy::Naive, Strategy::Paper, Strategy::Best] {
         for scale in [1.0, 2.5, 40.0] {
             let guides = Guides { fixed: vec![0, 7, 12, 20], ..Guides::default() };
-            let asked = Options { scale: Some(scale), ..options(strategy, guides.clone()) };
+            let asked = SimplifyOptions { scale: Some(scale), ..options(strategy, guides.clone()) };
             let result = simplify(&mesh, &asked).expect("there is room");
             for &facet in &guides.fixed {
                 let wanted = (coordinate(&result.input, facet) * scale).round() as i64;
@@ -101,8 +101,8 @@ fn no_facet_moves_when_all_are_fixed() {
     let fixed: Vec<usize> = (0..polycube.structure.facets.len()).collect();
     for strategy in VALID {
         let guides = Guides { fixed: fixed.clone(), ..Guides::default() };
-        let result =
-            simplify(&mesh, &Options { scale: Some(1.0), ..options(strategy, guides) }).expect("the input fits");
+        let result = simplify(&mesh, &SimplifyOptions { scale: Some(1.0), ..options(strategy, guides) })
+            .expect("the input fits");
         let still: Vec<i64> = polycube.placement.iter().map(|x| x.round() as i64).collect();
         assert_eq!(result.levels, still);
         assert_eq!(result.report.after, Some(result.report.before));
@@ -222,7 +222,7 @@ fn too_coarse_a_lattice_for_fixed_facets_is_an_error() {
     let mesh = towers();
     let tops = tops(&read(&mesh));
     let guides = Guides { fixed: tops, ..Guides::default() };
-    let asked = Options { scale: Some(0.1), ..options(Strategy::Best, guides) };
+    let asked = SimplifyOptions { scale: Some(0.1), ..options(Strategy::Best, guides) };
     let error = simplify(&mesh, &asked).map(|r| r.levels).expect_err("three planes do not fit into one step");
     assert_eq!(error.kind, ErrorKind::Infeasible, "{error}");
 }
@@ -252,7 +252,7 @@ fn mirrored_polycubes_stay_mirrored() {
         let Some(mesh) = mirrored(seed, 2 + seed as usize % 4) else { continue };
         for strategy in VALID {
             for scale in [1.0, 0.7] {
-                let asked = Options { scale: Some(scale), ..options(strategy, guides.clone()) };
+                let asked = SimplifyOptions { scale: Some(scale), ..options(strategy, guides.clone()) };
                 let what = format!("seed {seed}, {strategy:?} at {scale}");
                 let result = simplify(&mesh, &asked).unwrap_or_else(|e| panic!("{what}: {e}"));
                 check(&result, &guides, &what).expect("the guides hold");
@@ -280,7 +280,7 @@ fn fixed_facets_that_mirror_each_other_stay_or_are_refused() {
             let guides = Guides { fixed, symmetry: vec![Symmetry { axis: 0, at: 10.0 }], ..Guides::default() };
             for (strategy, scale) in [(0, 1.0), (0, 0.75), (1, 0.75), (1, 0.7), (2, 0.7), (2, 0.75)] {
                 let strategy = [Strategy::Paper, Strategy::Best, Strategy::Naive][strategy];
-                let asked = Options { scale: Some(scale), ..options(strategy, guides.clone()) };
+                let asked = SimplifyOptions { scale: Some(scale), ..options(strategy, guides.clone()) };
                 let what = format!("seed {seed}, {strategy:?} at {scale}, {guides:?}");
                 match simplify(&mesh, &asked) {
                     Ok(result) if strategy == Strategy::Naive => {
@@ -316,7 +316,7 @@ fn a_slider_gives_what_a_run_with_that_simplicity_gives() {
         let one = simplify(&mesh, &options(Strategy::Best, guides.clone())).expect("a valid polycube");
         for simplicity in [1.0, 0.6, 0.3, 0.0] {
             let slid = one.at(&input, simplicity, &context).expect("a point of the front");
-            let asked = Options { simplicity: Some(simplicity), ..options(Strategy::Best, guides.clone()) };
+            let asked = SimplifyOptions { simplicity: Some(simplicity), ..options(Strategy::Best, guides.clone()) };
             let run = simplify(&mesh, &asked).expect("a valid polycube");
             assert_eq!(slid.levels, run.levels);
             assert_eq!(slid.report.after, run.report.after);
@@ -334,7 +334,8 @@ fn the_distortion_stays_within_its_limit() {
     let mesh = example(Example::Ring, 3, CellKind::Triangles).expect("the example exists").0;
     let angle = |r: &Simplified| r.report.distortion.expect("the result is valid")[1].angle;
     let run = |max_distortion, scale| {
-        let asked = Options { max_distortion, scale: Some(scale), ..options(Strategy::Best, Guides::default()) };
+        let asked =
+            SimplifyOptions { max_distortion, scale: Some(scale), ..options(Strategy::Best, Guides::default()) };
         simplify(&mesh, &asked).expect("valid")
     };
     let coarsest = run(None, 20.0);
@@ -401,7 +402,7 @@ proptest! {
                 prop_assert_eq!(&one.report.front, &two.report.front);
                 if strategy == Strategy::Paper {
                     let result = one.polycube.as_ref().expect("a valid polycube");
-                    let again = Options { scale: Some(1.0), ..options(strategy, guides.clone()) };
+                    let again = SimplifyOptions { scale: Some(1.0), ..options(strategy, guides.clone()) };
                     // Some of its faces may be turned over, so their normals do not tell their labels.
                     let labels = common::labels(&one.input);
                     let input = Input { polycube: result, shape: None, labels: Some(&labels) };

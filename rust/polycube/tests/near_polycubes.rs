@@ -4,11 +4,12 @@ mod common;
 
 use common::{dense, paper, read, simplify};
 use nalgebra::{Rotation3, Vector3};
-use polycube::generate::{Cuboid, SplitMix64, Voxels, random_polycube};
+use polycube::generate::{Cuboid, Voxels, random_polycube};
 use polycube::mesh::{CellKind, Cells, Mesh, Point};
+use polycube::parts::SplitMix64;
 use polycube::simplify::{Input, read_structure};
 use polycube::structure::{Polycube, Tolerance, Violation};
-use polycube::{Error, Options, Place};
+use polycube::{Error, Place, SimplifyOptions};
 
 /// The surface of unit quadrilaterals of boxes.
 fn quads(boxes: &[([i64; 3], [i64; 3])]) -> Mesh {
@@ -85,7 +86,8 @@ fn turned_polycubes_are_read_and_the_angle_is_told() {
         let mesh = random_polycube(seed, 5, 8).unwrap().mesh(CellKind::Quads, 1.0).unwrap();
         let straight = read(&mesh);
         let turn = Rotation3::from_axis_angle(&Vector3::z_axis(), 4_f64.to_radians());
-        let result = simplify(&mesh.moved(|p| turn * p).unwrap(), &Options { scale: Some(1.0), ..paper() }).unwrap();
+        let result =
+            simplify(&mesh.moved(|p| turn * p).unwrap(), &SimplifyOptions { scale: Some(1.0), ..paper() }).unwrap();
         assert_eq!(result.input.structure.edges.len(), straight.structure.edges.len(), "seed {seed}");
         let deviation = result.report.deviation;
         assert!((deviation.degrees - 4.0).abs() < 1e-6, "seed {seed}: {deviation:?}");
@@ -101,7 +103,7 @@ fn noisy_polycubes_have_the_structure_of_the_clean_ones() {
         let clean = random_polycube(seed, 5, 8).unwrap().mesh(CellKind::Quads, 1.0).unwrap();
         let mut noise = || 0.2 * rng.unit() - 0.1;
         let mesh = clean.moved(|p| p + Vector3::from([noise(), noise(), noise()])).unwrap();
-        let result = simplify(&mesh, &Options { scale: Some(1.0), ..paper() }).unwrap();
+        let result = simplify(&mesh, &SimplifyOptions { scale: Some(1.0), ..paper() }).unwrap();
         let expected = read(&clean);
         let found = &result.input;
         assert_eq!(found.structure, expected.structure, "seed {seed}");
@@ -290,7 +292,7 @@ fn a_vertex_far_off_its_plane_is_named_with_its_distance() {
 #[test]
 fn parts_that_cross_are_named_by_faces_of_both() {
     let one = cube(2);
-    let other = polycube::generate::translate(&one, Vector3::from([1.0; 3])).unwrap();
+    let other = polycube::parts::translate(&one, Vector3::from([1.0; 3])).unwrap();
     let count = one.points().len() as u32;
     let beside = faces(&other).iter().map(|f| f.map(|v| v + count));
     let all = faces(&one).iter().copied().chain(beside).collect();

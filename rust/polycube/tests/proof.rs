@@ -5,11 +5,10 @@ mod common;
 use common::models::model;
 use common::read;
 use polycube::Context;
-use polycube::align::prove::{Proof, prove};
-use polycube::align::ranks::Ranks;
-use polycube::generate::{Cuboid, SplitMix64, Voxels, random_polycube};
-use polycube::layout::{Objective, Rows, count};
+use polycube::generate::{Cuboid, Voxels, random_polycube};
+use polycube::layout::{Objective, count};
 use polycube::mesh::CellKind;
+use polycube::parts::{Proof, Ranks, Rows, SplitMix64, prove};
 use polycube::structure::{Arrangement, Polycube, Structure};
 use std::time::Duration;
 

@@ -4,12 +4,12 @@ mod common;
 
 use common::models::{models, reference};
 use common::{dense, labels, paper, read, simplify};
-use polycube::generate::{perturb, scale};
 use polycube::layout::{Counts, count};
-use polycube::map::morph;
 use polycube::mesh::Mesh;
+use polycube::parts::morph;
+use polycube::parts::{perturb, scale};
 use polycube::structure::{Arrangement, placement_of};
-use polycube::{Context, Input, Options, Simplified};
+use polycube::{Context, Input, Simplified, SimplifyOptions};
 use serde_json::Value;
 
 const SCALES: [f64; 4] = [0.37, 1.0, 1.7, 3.0];
@@ -71,7 +71,7 @@ fn assert_valid(name: &str, result: &Simplified) -> Counts {
 fn every_model_gets_as_coarse_as_asked_at_every_scale() {
     for (name, mesh) in models() {
         let counts = SCALES.map(|scale| {
-            let options = Options { scale: Some(scale), ..paper() };
+            let options = SimplifyOptions { scale: Some(scale), ..paper() };
             let result = simplify(&mesh, &options).expect("real polycubes can be simplified");
             assert_valid(&format!("{name} x {scale}"), &result)
         });

@@ -4,10 +4,11 @@ use crate::judge;
 use arbitrary::{Result, Unstructured};
 use polycube::align::{Effort, Guides, SolverKind, Strategy, Symmetry};
 use polycube::context::Context;
-use polycube::generate::{Cuboid, Voxels, perturb, random_polycube};
+use polycube::generate::{Cuboid, Voxels, random_polycube};
+use polycube::parts::{perturb};
 use polycube::mesh::{CellKind, Cells, Mesh, Point};
 use polycube::remesh::{RemeshOptions, Size, remesh};
-use polycube::simplify::{Input, Options, Report, read_structure, simplify};
+use polycube::simplify::{Input, SimplifyOptions, SimplifyReport, read_structure, simplify};
 use polycube::structure::Tolerance;
 use polycube::{ErrorKind, Simplified};
 
@@ -49,7 +50,7 @@ pub fn remeshing(data: &[u8]) {
         Ok(result) => result,
         Err(error) => panic!("{error}"),
     };
-    let Simplified { report: Report { after, .. }, .. } = &result.simplified;
+    let Simplified { report: SimplifyReport { after, .. }, .. } = &result.simplified;
     let Some(after) = after else { panic!("no counts") };
     assert_eq!(result.layout.patches.cells().len(), after.surface_patches);
     let blocks = if options.padding == 0 { after.blocks } else { after.blocks_padded };
@@ -70,7 +71,7 @@ fn show(mesh: &Mesh, options: &impl std::fmt::Debug) {
 }
 
 /// Any numbers as points and any vertices as cells; often on a lattice, where things touch.
-fn any(bytes: &mut Unstructured) -> Result<(Mesh, Options)> {
+fn any(bytes: &mut Unstructured) -> Result<(Mesh, SimplifyOptions)> {
     let count = bytes.int_in_range(1..=40)?;
     let wild = bytes.ratio(1, 8)?;
     let points = (0..count).map(|_| {
@@ -96,7 +97,7 @@ fn any(bytes: &mut Unstructured) -> Result<(Mesh, Options)> {
         CellKind::Hexahedra => Cells::Hexahedra(cells),
     };
     let mesh = Mesh::new(points, cells).map_err(|_| arbitrary::Error::IncorrectFormat)?;
-    Ok((mesh, Options { effort: effort(), ..Options::default() }))
+    Ok((mesh, SimplifyOptions { effort: effort(), ..SimplifyOptions::default() }))
 }
 
 /// A polycube that is valid by construction: boxes made manifold, moved off the lattice in some cases.
@@ -150,9 +151,9 @@ fn effort() -> Effort {
     Effort { steps_per_level: 4, proof_nodes: 4, ..Effort::default() }
 }
 
-fn options(bytes: &mut Unstructured) -> Result<Options> {
+fn options(bytes: &mut Unstructured) -> Result<SimplifyOptions> {
     let scale = bytes.choose(&[None, None, Some(0.1), Some(0.7), Some(1.0), Some(3.3), Some(1e3)])?;
-    Ok(Options {
+    Ok(SimplifyOptions {
         strategy: *bytes.choose(&[Strategy::Best, Strategy::Paper, Strategy::Naive])?,
         scale: *scale,
         lambda_min: f64::from(bytes.int_in_range(0_u8..=4)?) / 4.0,
@@ -162,7 +163,7 @@ fn options(bytes: &mut Unstructured) -> Result<Options> {
         max_displacement: bytes.ratio(1, 4)?.then_some(0.01 + f64::from(bytes.arbitrary::<u8>()?) / 64.0),
         max_distortion: bytes.ratio(1, 6)?.then_some(1.0 + f64::from(bytes.arbitrary::<u8>()?) / 255.0),
         guides: if bytes.ratio(1, 3)? { guides(bytes)? } else { Guides::default() },
-        ..Options::default()
+        ..SimplifyOptions::default()
     })
 }
 
@@ -191,7 +192,7 @@ fn remesh_options(bytes: &mut Unstructured) -> Result<RemeshOptions> {
     };
     let strategy = *bytes.choose(&[Strategy::Best, Strategy::Paper, Strategy::Naive])?;
     Ok(RemeshOptions {
-        simplify: Options { strategy, effort: effort(), ..Options::default() },
+        simplify: SimplifyOptions { strategy, effort: effort(), ..SimplifyOptions::default() },
         size,
         padding: bytes.int_in_range(0..=2)?,
         surface_only: bytes.ratio(1, 4)?,

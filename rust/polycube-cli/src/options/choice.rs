@@ -3,7 +3,7 @@
 use super::number::{at_least_one, fraction, zero_or_more};
 use super::strategy::ObjectiveArg;
 use clap::Args;
-use polycube::simplify::Options;
+use polycube::simplify::SimplifyOptions;
 
 /// Which of the results between the fewest blocks and the least displacement is taken.
 #[derive(Args, Clone, Debug, Default)]
@@ -29,8 +29,14 @@ pub struct ChoiceArgs {
 
 impl ChoiceArgs {
     /// These options for `simplify`.
-    pub fn set(&self, options: Options) -> Options {
+    pub fn set(&self, options: SimplifyOptions) -> SimplifyOptions {
         let Self { simplicity, max_displacement, max_distortion, .. } = *self;
-        Options { objective: self.objective.map(|o| o.0), simplicity, max_displacement, max_distortion, ..options }
+        SimplifyOptions {
+            objective: self.objective.map(|o| o.0),
+            simplicity,
+            max_displacement,
+            max_distortion,
+            ..options
+        }
     }
 }

@@ -6,7 +6,7 @@ use crate::failure::Result;
 use crate::input::guides;
 use clap::{Args, ValueHint};
 use polycube::align::{Effort, Guides};
-use polycube::simplify::Options;
+use polycube::simplify::SimplifyOptions;
 use std::path::PathBuf;
 use std::time::Duration;
 
@@ -57,14 +57,14 @@ impl Default for SearchArgs {
 
 impl SearchArgs {
     /// These options for `simplify`, but for the guides.
-    pub fn set(&self, options: Options) -> Options {
+    pub fn set(&self, options: SimplifyOptions) -> SimplifyOptions {
         let effort = Effort {
             steps_per_level: self.steps,
             proof_nodes: self.proof_nodes,
             // What no duration holds is no limit.
             time_limit: self.time_limit.and_then(|s| Duration::try_from_secs_f64(s).ok()),
         };
-        Options { lambda_min: self.rounds.lambda_min, solver: self.solver.0, effort, ..options }
+        SimplifyOptions { lambda_min: self.rounds.lambda_min, solver: self.solver.0, effort, ..options }
     }
 
     /// Reads the guides; none if none were asked for.

@@ -5,7 +5,7 @@ use polycube::align::{Effort, Guides, SolverKind};
 use polycube::layout::Objective;
 use polycube::make::{MakeOptions, MakeReport};
 use polycube::remesh::{RemeshOptions, RemeshReport, Size};
-use polycube::simplify::{Options, Report, Simplified};
+use polycube::simplify::{Simplified, SimplifyOptions, SimplifyReport};
 use polycube::structure::{Arrangement, Edge, Facet, Tolerance, placement_of};
 use serde::Serialize;
 
@@ -43,7 +43,7 @@ pub struct RunReport<'a> {
     pub output: Option<&'a str>,
     /// What was done.
     #[serde(flatten)]
-    pub report: &'a Report,
+    pub report: &'a SimplifyReport,
     /// The points of the front, measured, with `--pareto`.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub pareto: Option<&'a [Point]>,
@@ -99,10 +99,10 @@ pub struct OptionsUsed {
     guides: Guides,
 }
 
-impl From<Options> for OptionsUsed {
-    fn from(options: Options) -> Self {
-        let Options { scale, simplicity, lambda_min, solver, objective, effort, tolerance, .. } = options;
-        let Options { max_displacement, max_distortion, guides, .. } = options;
+impl From<SimplifyOptions> for OptionsUsed {
+    fn from(options: SimplifyOptions) -> Self {
+        let SimplifyOptions { scale, simplicity, lambda_min, solver, objective, effort, tolerance, .. } = options;
+        let SimplifyOptions { max_displacement, max_distortion, guides, .. } = options;
         Self {
             scale,
             simplicity,

@@ -4,7 +4,7 @@ use comfy_table::presets::{ASCII_MARKDOWN, UTF8_NO_BORDERS};
 use comfy_table::{CellAlignment, LineStyle, Table};
 use polycube::layout::Counts;
 use polycube::remesh::RemeshReport;
-use polycube::simplify::Report;
+use polycube::simplify::SimplifyReport;
 
 /// Where a table is read.
 #[derive(Clone, Copy, Debug)]
@@ -44,7 +44,7 @@ pub fn counts(counts: &Counts) -> [(&'static str, usize); 3] {
 }
 
 /// What a run did.
-pub fn summary(report: &Report) -> String {
+pub fn summary(report: &SimplifyReport) -> String {
     let mut text = match &report.after {
         Some(after) => gains(&report.before, after),
         None => {
@@ -118,7 +118,7 @@ fn gains(before: &Counts, after: &Counts) -> String {
     table(["", "before", "after", "change"], counts(before).into_iter().zip(counts(after)).map(row))
 }
 
-fn facts(report: &Report) -> Vec<(&'static str, String)> {
+fn facts(report: &SimplifyReport) -> Vec<(&'static str, String)> {
     let mut facts = vec![
         ("lattice", format!("{} steps per unit of the input", short(report.scale))),
         ("rounds", report.rounds.len().to_string()),
@@ -144,7 +144,7 @@ fn facts(report: &Report) -> Vec<(&'static str, String)> {
     facts
 }
 
-fn seconds(report: &Report) -> String {
+fn seconds(report: &SimplifyReport) -> String {
     let s = &report.seconds;
     let stages = [("read", s.read), ("structure", s.structure), ("align", s.align), ("morph", s.morph)];
     let each: Vec<String> = stages.iter().map(|(name, t)| format!("{name} {t:.3}")).collect();

@@ -1,7 +1,6 @@
 //! `polycube simplify`.
 
 use super::{CellKind, Example, Sandbox, bent, coarse};
-use polycube::generate;
 use polycube::mesh::{self, Format};
 use polycube::structure::{Polycube, Tolerance};
 use serde_json::Value;
@@ -166,7 +165,7 @@ fn no_mesh_of_an_earlier_run_stays_and_no_input_goes() {
 #[test]
 fn both_solvers_and_every_scale_give_valid_results() {
     let sandbox = Sandbox::new();
-    let mesh = generate::scale(&coarse(Example::Ring, CellKind::Triangles), 0.37).unwrap();
+    let mesh = polycube::parts::scale(&coarse(Example::Ring, CellKind::Triangles), 0.37).unwrap();
     sandbox.write_mesh("ring.off", &mesh);
     for options in ["", "--solver linear", "--scale 0.37", "--scale 3", "--edge-length 0.9"] {
         sandbox.ok(&format!("simplify ring.off -o out {options}"));

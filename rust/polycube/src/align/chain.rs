@@ -9,7 +9,7 @@ use super::problem::Problem;
 
 /// A plane with the targets of its levels.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct Plane {
+pub(super) struct Plane {
     /// The number of corners, at least 1.
     pub weight: i64,
     /// Σ corners · target in units of `2^−FRACTION_BITS`.
@@ -20,7 +20,7 @@ pub struct Plane {
 
 impl Plane {
     /// This plane and the image of `other` under `x ↦ doubled − x` in one.
-    pub fn folded(&self, other: &Self, doubled: i64) -> Self {
+    pub(super) fn folded(&self, other: &Self, doubled: i64) -> Self {
         let reach = i128::from(other.weight) * (i128::from(doubled) << Problem::FRACTION_BITS);
         Self {
             weight: self.weight + other.weight,
@@ -32,7 +32,7 @@ impl Plane {
 
 /// Coordinates of planes in a row, each at least one step above the one before, the last at most at `most`; nothing if
 /// fixed planes and bound leave no room.
-pub fn chain(planes: &[Plane], most: Option<i64>) -> Option<Vec<i64>> {
+pub(super) fn chain(planes: &[Plane], most: Option<i64>) -> Option<Vec<i64>> {
     let mut placed = Vec::with_capacity(planes.len());
     let mut low = i64::MIN;
     while placed.len() < planes.len() {

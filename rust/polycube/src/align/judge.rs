@@ -8,19 +8,19 @@ use crate::structure::{Arrangement, Structure};
 const FEW_WORDS: usize = 4096;
 
 /// Says whether an order is valid, and what it costs. Makes its work space once.
-pub struct Judge<'a> {
+pub(super) struct Judge<'a> {
     structure: &'a Structure,
     rows: Option<Box<dyn Counter>>,
 }
 
 impl<'a> Judge<'a> {
     /// A judge of the orders of `structure`.
-    pub fn new(structure: &'a Structure) -> Self {
+    pub(super) fn new(structure: &'a Structure) -> Self {
         Self { structure, rows: counter(structure) }
     }
 
     /// What `objective` counts, nothing for an order that is not valid.
-    pub fn cost(&mut self, objective: Objective, ranks: &Ranks) -> Option<usize> {
+    pub(super) fn cost(&mut self, objective: Objective, ranks: &Ranks) -> Option<usize> {
         match &mut self.rows {
             Some(rows) => rows.count(objective, &ranks.of_level, ranks.planes),
             None => self.counts_slowly(ranks).map(|c| c.of(objective)),
@@ -28,7 +28,7 @@ impl<'a> Judge<'a> {
     }
 
     /// All three numbers, nothing for an order that is not valid.
-    pub fn counts(&mut self, ranks: &Ranks) -> Option<Counts> {
+    pub(super) fn counts(&mut self, ranks: &Ranks) -> Option<Counts> {
         match self.few_rows() {
             Some(rows) => rows.counts(&ranks.of_level, ranks.planes),
             None => self.counts_slowly(ranks),
@@ -40,12 +40,12 @@ impl<'a> Judge<'a> {
     }
 
     /// Whether the order is known to be valid; one that is too long for rows of bits is not.
-    pub fn knows_valid(&mut self, ranks: &Ranks) -> bool {
+    pub(super) fn knows_valid(&mut self, ranks: &Ranks) -> bool {
         self.rows.as_mut().is_some_and(|rows| rows.is_valid(&ranks.of_level, ranks.planes))
     }
 
     /// All three numbers of a placement that is known to be valid.
-    pub fn counts_of(&mut self, placement: &[f64]) -> Counts {
+    pub(super) fn counts_of(&mut self, placement: &[f64]) -> Counts {
         let structure = self.structure;
         let quick = self.few_rows().and_then(|rows| {
             let ranks = Ranks::new(structure, placement);
@@ -61,6 +61,6 @@ impl<'a> Judge<'a> {
 }
 
 /// Whether the surface is embedded with its solid side inside.
-pub fn is_valid(arrangement: &Arrangement) -> bool {
+pub(super) fn is_valid(arrangement: &Arrangement) -> bool {
     arrangement.conflicts().is_empty() && arrangement.inside_out().is_empty()
 }

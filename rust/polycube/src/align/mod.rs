@@ -1,33 +1,35 @@
 //! Aligning the corners of a polycube on the integer lattice. Nothing here knows about meshes.
 //!
-//! [`align`] is the way in. Algorithm 1 pairs corners ([`neighbours`]), turns the pairs and the distances to keep
-//! into an integer [`problem`], [`solve`]s it, checks the result exactly, and repeats.
+//! [`align`] is the way in. Algorithm 1 pairs corners (`neighbours`), turns the pairs and the distances to keep
+//! into an integer `problem`, `solve`s it, checks the result exactly, and repeats.
 
 mod chain;
 mod classes;
 mod difference;
 mod effort;
-pub mod guides;
+mod guides;
 mod judge;
-mod options;
+pub(crate) mod options;
 mod paper;
 mod place;
 mod potential;
-pub mod problem;
-pub mod prove;
-pub mod ranks;
+pub(crate) mod problem;
+pub(crate) mod prove;
+pub(crate) mod ranks;
 mod relax;
 mod search;
 mod separate;
-pub mod solve;
+pub(crate) mod solve;
 mod start;
 mod unit;
 
 pub use effort::Effort;
 pub use guides::{Guides, Symmetry};
+pub(crate) use options::AlignOptions;
 pub(crate) use options::keeps;
-pub use options::{Options, SolverKind, Strategy};
-pub use paper::{Round, neighbours};
+pub use options::{SolverKind, Strategy};
+pub use paper::Round;
+pub(crate) use paper::neighbours;
 
 use crate::context::Context;
 use crate::error::{Error, ErrorKind, Result};
@@ -43,6 +45,7 @@ use start::guided_start;
 use std::time::Instant;
 
 /// Levels on the lattice, and how they got there.
+#[doc(hidden)]
 #[derive(Clone, Debug, PartialEq)]
 pub struct Alignment {
     /// The lattice coordinate of every level.
@@ -98,7 +101,8 @@ pub struct TradeOff {
 /// does not exist or contradict each other, [`ErrorKind::Polycube`] for an input that touches itself,
 /// [`ErrorKind::Unsupported`] for more than 65535 levels along one axis, [`ErrorKind::Infeasible`] if no valid polycube
 /// with no more blocks is found that respects the guides, [`ErrorKind::Cancelled`].
-pub fn align(structure: &Structure, input: &[f64], options: &Options, context: &Context) -> Result<Alignment> {
+#[doc(hidden)]
+pub fn align(structure: &Structure, input: &[f64], options: &AlignOptions, context: &Context) -> Result<Alignment> {
     let before = counts_before(structure, input)?;
     let task = Task::new(structure, input, before, options, context)?;
     let found = match options.strategy {
@@ -138,12 +142,12 @@ fn check(structure: &Structure, levels: &[i64]) -> Result<()> {
 /// # Errors
 /// [`ErrorKind::Option`] for a scale that is not positive or too large for the lattice, [`ErrorKind::Infeasible`] if
 /// what the guides fix leaves no room at this scale, [`ErrorKind::Cancelled`].
-pub fn place(
+pub(crate) fn place(
     structure: &Structure,
     input: &[f64],
     before: Counts,
     point: &TradeOff,
-    options: &Options,
+    options: &AlignOptions,
     context: &Context,
 ) -> Result<Vec<i64>> {
     let task = Task::new(structure, input, before, options, context)?;
@@ -167,7 +171,7 @@ struct Task<'a> {
     before: Counts,
     /// When to stop searching.
     deadline: Option<Instant>,
-    options: &'a Options,
+    options: &'a AlignOptions,
 }
 
 impl<'a> Task<'a> {
@@ -175,7 +179,7 @@ impl<'a> Task<'a> {
         structure: &'a Structure,
         input: &'a [f64],
         before: Counts,
-        options: &'a Options,
+        options: &'a AlignOptions,
         context: &Context,
     ) -> Result<Self> {
         let targets = scaled(input, options.scale)?;
@@ -199,7 +203,7 @@ impl<'a> Task<'a> {
 
 impl TradeOff {
     /// The number of the point that `simplicity` asks for, from 1 (the first of `count` points) to 0 (the last).
-    pub fn index(simplicity: f64, count: usize) -> usize {
+    pub(crate) fn index(simplicity: f64, count: usize) -> usize {
         ((1.0 - simplicity.clamp(0.0, 1.0)) * (count as f64 - 1.0)).round() as usize
     }
 
@@ -220,7 +224,7 @@ impl TradeOff {
 /// # Errors
 /// [`ErrorKind::Option`] for a scale that is not positive or too large for the lattice, [`ErrorKind::Infeasible`] if
 /// what the guides fix leaves no room at this scale, [`ErrorKind::Cancelled`].
-pub fn rescale(
+pub(crate) fn rescale(
     structure: &Structure,
     input: &[f64],
     levels: &[i64],
@@ -240,7 +244,7 @@ pub fn rescale(
 /// # Errors
 /// [`ErrorKind::Option`] for a scale that is not positive or too large for the lattice, [`ErrorKind::Infeasible`] if
 /// rounding brings together what the guides keep apart.
-pub fn round(structure: &Structure, input: &[f64], scale: f64, guides: &Guides) -> Result<Vec<i64>> {
+pub(crate) fn round(structure: &Structure, input: &[f64], scale: f64, guides: &Guides) -> Result<Vec<i64>> {
     let targets = scaled(input, scale)?;
     Guided::new(structure, input, guides, scale)?.rounded(structure, &targets)
 }

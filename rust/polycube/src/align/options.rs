@@ -31,7 +31,7 @@ pub enum SolverKind {
 
 /// What [`align`](super::align()) shall do.
 #[derive(Clone, Debug, PartialEq, serde::Serialize)]
-pub struct Options {
+pub struct AlignOptions {
     /// How the levels find their places.
     pub strategy: Strategy,
     /// Lattice steps per unit of the input, above 0.
@@ -52,7 +52,7 @@ pub struct Options {
     pub guides: Guides,
 }
 
-impl Default for Options {
+impl Default for AlignOptions {
     fn default() -> Self {
         Self {
             strategy: Strategy::default(),

@@ -12,7 +12,12 @@ use crate::structure::Structure;
 ///
 /// # Errors
 /// [`ErrorKind::Infeasible`] if there is no room for the planes between facets that must not move.
-pub fn place_in_order(structure: &Structure, ranks: &Ranks, targets: &[f64], guided: &Guided) -> Result<Vec<i64>> {
+pub(super) fn place_in_order(
+    structure: &Structure,
+    ranks: &Ranks,
+    targets: &[f64],
+    guided: &Guided,
+) -> Result<Vec<i64>> {
     let mut levels = vec![0; targets.len()];
     for axis in 0..3 {
         let mut planes = vec![Plane { weight: 0, moment: 0, fixed: None }; ranks.planes[axis]];

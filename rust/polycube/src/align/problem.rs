@@ -13,7 +13,7 @@
 //! Targets are rounded once to multiples of `2^−FRACTION_BITS`. From then on cost and marginal costs are integers in
 //! units of `2^−(halvings + 2 · FRACTION_BITS)`, so every machine takes the same decisions.
 
-pub use super::difference::Difference;
+pub(crate) use super::difference::Difference;
 use super::potential;
 use crate::error::{Error, ErrorKind, Result};
 use serde::{Deserialize, Serialize};
@@ -48,7 +48,7 @@ pub struct Linear {
     pub at_least: f64,
 }
 
-/// One axis of the alignment problem; the formula is in the [module](self) documentation.
+/// One axis of the alignment problem; the formula is in the module documentation.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Problem {
     /// One term for each variable; its length is the number of variables.
@@ -66,7 +66,7 @@ pub struct Problem {
 
 /// The first constraint that given levels do not satisfy.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Violation {
+pub enum Infeasibility {
     /// There are this many levels, which is not the number of variables.
     Length(usize),
     /// The level of this variable is outside `±MAX_LEVEL`.
@@ -77,7 +77,7 @@ pub enum Violation {
     Linear(usize),
 }
 
-impl fmt::Display for Violation {
+impl fmt::Display for Infeasibility {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
             Self::Length(n) => write!(f, "{n} levels do not match the number of variables"),
@@ -159,20 +159,20 @@ impl Problem {
     ///
     /// # Panics
     /// If a constraint names no variable, which [`validate`](Self::validate) finds.
-    pub fn is_feasible(&self, levels: &[i64]) -> std::result::Result<(), Violation> {
+    pub fn is_feasible(&self, levels: &[i64]) -> std::result::Result<(), Infeasibility> {
         if levels.len() != self.len() {
-            return Err(Violation::Length(levels.len()));
+            return Err(Infeasibility::Length(levels.len()));
         }
         let range = -Self::MAX_LEVEL..=Self::MAX_LEVEL;
         if let Some(i) = levels.iter().position(|x| !range.contains(x)) {
-            return Err(Violation::Range(i));
+            return Err(Infeasibility::Range(i));
         }
         let short = |d: &Difference| levels[d.high as usize] - levels[d.low as usize] < d.gap;
         if let Some(i) = self.differences.iter().position(short) {
-            return Err(Violation::Difference(i));
+            return Err(Infeasibility::Difference(i));
         }
         match self.linear.iter().position(|l| !l.holds(levels)) {
-            Some(i) => Err(Violation::Linear(i)),
+            Some(i) => Err(Infeasibility::Linear(i)),
             None => Ok(()),
         }
     }
@@ -208,7 +208,7 @@ impl Problem {
     /// As [`validate`](Self::validate), and [`ErrorKind::Option`] if `near` is of another length or out of range.
     pub fn feasible_near(&self, near: &[i64]) -> Result<Vec<i64>> {
         self.check_numbers()?;
-        if let Err(violation @ (Violation::Length(_) | Violation::Range(_))) = self.is_feasible(near) {
+        if let Err(violation @ (Infeasibility::Length(_) | Infeasibility::Range(_))) = self.is_feasible(near) {
             return Err(out_of_range(format!("starting point: {violation}")));
         }
         potential::between(&self.differences, near)

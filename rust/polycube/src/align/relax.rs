@@ -12,7 +12,7 @@ use crate::structure::{Arrangement, Placement, Structure, placement_of};
 
 /// Two corners that shall come to have the same coordinate along an axis.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, serde::Serialize)]
-pub struct Pair {
+pub(super) struct Pair {
     /// 0, 1 or 2 for X, Y or Z.
     pub axis: usize,
     /// The corners, ascending.
@@ -21,13 +21,13 @@ pub struct Pair {
 
 impl Pair {
     /// The levels that become equal.
-    pub fn levels(&self, structure: &Structure) -> [u32; 2] {
+    pub(super) fn levels(&self, structure: &Structure) -> [u32; 2] {
         self.corners.map(|c| structure.corners[c as usize].levels[self.axis])
     }
 }
 
 /// What one round asks for: where the levels want to be, which pairs attract, what must hold.
-pub struct Demand<'a> {
+pub(super) struct Demand<'a> {
     /// The levels of the input, in lattice steps.
     pub targets: &'a [f64],
     /// Alignments to keep.
@@ -47,7 +47,7 @@ pub struct Demand<'a> {
 /// The solver knows distances only between parts that face each other. When parts that did not face each other
 /// come to touch, the distance that kept them apart in `valid` is added and the problem is solved again. This ends:
 /// each time another change of order is forbidden, and with all of them forbidden the order is that of `valid`.
-pub fn relax(
+pub(super) fn relax(
     structure: &Structure,
     valid: &[f64],
     mut demand: Demand,

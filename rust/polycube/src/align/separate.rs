@@ -8,7 +8,12 @@ use crate::structure::{Conflict, LevelBox, Structure};
 /// Whether two parts touch depends on the order of their levels alone, so some order between them must have changed.
 /// Of the axes along which their boxes were separate the one with the largest distance is kept; where
 /// no single axis tells them apart, every change of order among the levels of the two facets is undone.
-pub fn separations(structure: &Structure, conflict: &Conflict, valid: &[f64], broken: &[f64]) -> Vec<Difference> {
+pub(super) fn separations(
+    structure: &Structure,
+    conflict: &Conflict,
+    valid: &[f64],
+    broken: &[f64],
+) -> Vec<Difference> {
     let kept = |a: u32, b: u32| required(a, b, valid).filter(|d| !holds(d, broken));
     if let Some([a, b]) = &conflict.boxes {
         let apart = |axis: usize| [(a.high[axis], b.low[axis]), (b.high[axis], a.low[axis])];
@@ -31,7 +36,7 @@ fn required(low: u32, high: u32, valid: &[f64]) -> Option<Difference> {
 }
 
 /// Whether `placement` satisfies `difference`.
-pub fn holds(difference: &Difference, placement: &[f64]) -> bool {
+pub(super) fn holds(difference: &Difference, placement: &[f64]) -> bool {
     placement[difference.high as usize] - placement[difference.low as usize] >= difference.gap as f64
 }
 

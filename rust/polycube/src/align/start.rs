@@ -17,7 +17,12 @@ const STEPS_PER_LEVEL: usize = 400;
 ///
 /// # Errors
 /// [`ErrorKind::Infeasible`] if none is found; [`ErrorKind::Cancelled`].
-pub fn guided_start(structure: &Structure, input: &[f64], guided: &Guided, context: &Context) -> Result<Placement> {
+pub(super) fn guided_start(
+    structure: &Structure,
+    input: &[f64],
+    guided: &Guided,
+    context: &Context,
+) -> Result<Placement> {
     if guided.allows(&Ranks::new(structure, input)) {
         return Ok(input.to_vec());
     }

@@ -1,7 +1,7 @@
 //! Named polycubes for demonstrations, each with an organic shape it could have come from.
 
 use super::deform::Deformation;
-use super::mesh::Lattice;
+use super::mesh::VertexLattice;
 use super::soften::Body;
 use super::voxels::{Cuboid, Voxels};
 use crate::error::{Error, ErrorKind, Result};
@@ -100,7 +100,7 @@ const SOFTENING: usize = 20;
 /// None for the examples as they are; those of [`Voxels::mesh`] in principle.
 pub fn example(example: Example, seed: u64, kind: CellKind) -> Result<(Mesh, Mesh)> {
     let voxels = example.voxels(seed)?.refined(1.0)?;
-    let lattice = Lattice::new(&voxels)?;
+    let lattice = VertexLattice::new(&voxels)?;
     let points: Vec<Point> = (0..lattice.len()).map(|v| lattice.point(v)).collect();
     let maps = example.deformations();
     let deform = |p: &Point| maps.iter().fold(*p, |p, map| map.apply(p));
@@ -162,7 +162,7 @@ pub fn cube_spikes(seed: u64) -> Result<Voxels> {
 ///
 /// # Errors
 /// None; see [`Example::voxels`].
-pub fn stepped_l(seed: u64) -> Result<Voxels> {
+pub(super) fn stepped_l(seed: u64) -> Result<Voxels> {
     let mut shifts = Shifts::new(seed);
     let mut boxes = vec![Cuboid::new([-22, -9, -22], [22, 9, -8]), Cuboid::new([-22, -9, -8], [-8, 9, 22])];
     // Stairs in the nook: the lower one reaches out on the foot, the higher one up the arm.
@@ -181,7 +181,7 @@ pub fn stepped_l(seed: u64) -> Result<Voxels> {
 ///
 /// # Errors
 /// None; see [`Example::voxels`].
-pub fn ring(seed: u64) -> Result<Voxels> {
+pub(super) fn ring(seed: u64) -> Result<Voxels> {
     let mut shifts = Shifts::new(seed);
     let mut boxes = vec![Cuboid::new([-24, -24, -6], [24, 24, 6])];
     for [x, y] in [[-17, -17], [17, -17], [-17, 17], [17, 17]] {
@@ -200,7 +200,7 @@ pub fn ring(seed: u64) -> Result<Voxels> {
 ///
 /// # Errors
 /// None; see [`Example::voxels`].
-pub fn double_torus(seed: u64) -> Result<Voxels> {
+pub(super) fn double_torus(seed: u64) -> Result<Voxels> {
     let mut shifts = Shifts::new(seed);
     let mut boxes = vec![Cuboid::new([-33, -16, -6], [33, 16, 6])];
     for x in [-15, 15] {

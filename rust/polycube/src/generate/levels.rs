@@ -15,7 +15,7 @@ use petgraph::unionfind::UnionFind;
 /// # Errors
 /// [`ErrorKind::Unsupported`] for a volume; [`ErrorKind::Mismatch`] when there is not one label
 /// per face; [`ErrorKind::Polycube`] at a label outside 0..5.
-pub fn move_levels(mesh: &Mesh, labels: &[i8], mut offset: impl FnMut(usize) -> f64) -> Result<Mesh> {
+pub(super) fn move_levels(mesh: &Mesh, labels: &[i8], mut offset: impl FnMut(usize) -> f64) -> Result<Mesh> {
     check(mesh, labels)?;
     let (facet, count) = facets(mesh, labels);
     let offsets: Vec<f64> = (0..count).map(&mut offset).collect();
@@ -32,7 +32,7 @@ pub fn move_levels(mesh: &Mesh, labels: &[i8], mut offset: impl FnMut(usize) -> 
 /// same for a `seed` everywhere. No rectangle turns over; a triangle may whose corners move with different facets.
 ///
 /// # Errors
-/// [`ErrorKind::Option`] when `fraction` is outside `0..0.5`, and those of [`move_levels`].
+/// [`ErrorKind::Option`] when `fraction` is outside `0..0.5`, and those of `move_levels`.
 pub fn perturb(mesh: &Mesh, labels: &[i8], fraction: f64, seed: u64) -> Result<Mesh> {
     if !(0.0..0.5).contains(&fraction) {
         let message = format!("facets cannot move by {fraction} of the shortest edge");
@@ -101,7 +101,8 @@ fn shortest_edge(mesh: &Mesh) -> f64 {
 
 #[cfg(test)]
 mod tests {
-    use super::super::{Cuboid, Voxels, check, random_with_corners};
+    use super::super::random::random_with_corners;
+    use super::super::{Cuboid, Voxels, check};
     use super::*;
     use crate::mesh::CellKind;
 

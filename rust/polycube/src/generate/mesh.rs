@@ -13,12 +13,12 @@ const FACES: [[usize; 4]; 6] = [[0, 4, 6, 2], [1, 3, 7, 5], [0, 1, 5, 4], [2, 6,
 pub(super) const TETRAHEDRA: [[usize; 4]; 5] = [[0, 3, 6, 5], [1, 3, 0, 5], [2, 0, 3, 6], [4, 0, 6, 5], [7, 3, 5, 6]];
 
 /// Cells by the lattice vertices they join: `x + nx (y + ny z)` for planes `x`, `y`, `z`.
-pub(super) struct Lattice<'a> {
+pub(super) struct VertexLattice<'a> {
     voxels: &'a Voxels,
     counts: [usize; 3],
 }
 
-impl<'a> Lattice<'a> {
+impl<'a> VertexLattice<'a> {
     /// # Errors
     /// [`ErrorKind::Option`] when vertex indices do not fit 32 bits.
     pub(super) fn new(voxels: &'a Voxels) -> Result<Self> {
@@ -117,7 +117,7 @@ impl Voxels {
     /// 32-bit indices; [`ErrorKind::Mesh`] when no cell is solid.
     pub fn mesh(&self, kind: CellKind, step: f64) -> Result<Mesh> {
         let fine = self.refined(step)?;
-        let lattice = Lattice::new(&fine)?;
+        let lattice = VertexLattice::new(&fine)?;
         let cells = lattice.cells(kind);
         if cells.is_empty() {
             return Err(Error::new(ErrorKind::Mesh, "no cell of the polycube is solid"));

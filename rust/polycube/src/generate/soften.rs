@@ -1,6 +1,6 @@
 //! Rounds the edges and corners of a meshed polycube while every cell stays positive.
 
-use super::mesh::{Lattice, TETRAHEDRA};
+use super::mesh::{TETRAHEDRA, VertexLattice};
 use super::voxels::Voxels;
 use crate::mesh::Point;
 use nalgebra::Vector3;
@@ -19,7 +19,7 @@ pub(super) struct Body {
 }
 
 impl Body {
-    pub(super) fn new(voxels: &Voxels, lattice: &Lattice) -> Self {
+    pub(super) fn new(voxels: &Voxels, lattice: &VertexLattice) -> Self {
         let mut on_surface = vec![false; lattice.len()];
         let quads = lattice.quads();
         for v in quads.as_flattened() {
@@ -125,14 +125,14 @@ fn determinant(points: &[Point], frame: &[u32; 4]) -> f64 {
 
 #[cfg(test)]
 mod tests {
-    use super::super::random_with_corners;
+    use super::super::random::random_with_corners;
     use super::*;
 
     #[test]
     fn softened_polycubes_stay_positive_and_get_smaller() {
         for seed in 0..3 {
             let voxels = random_with_corners(seed, 60).unwrap().refined(1.0).unwrap();
-            let lattice = Lattice::new(&voxels).unwrap();
+            let lattice = VertexLattice::new(&voxels).unwrap();
             let body = Body::new(&voxels, &lattice);
             let start: Vec<Point> = (0..lattice.len()).map(|v| lattice.point(v)).collect();
             assert_eq!(body.smallest(&start), 1.0);

@@ -4,14 +4,14 @@ mod boxes;
 mod complex;
 mod lattice;
 mod pieces;
-mod rows;
+pub(crate) mod rows;
 mod separatrices;
 
 pub use boxes::{Block, Patch};
 pub use complex::{Complex, Counts};
 pub use lattice::Lattice;
 pub use pieces::Pieces;
-pub use rows::{Counter, MOST_LEVELS, Rows, counter};
+pub(crate) use rows::{Counter, MOST_LEVELS, counter};
 pub use separatrices::Separatrices;
 
 use crate::structure::Arrangement;

@@ -134,8 +134,9 @@ mod tests {
     use crate::generate::{Example, example};
     use crate::layout::count;
     use crate::mesh::CellKind;
-    use crate::remesh::{LatticeMap, Remesher};
-    use crate::simplify::{Input, Options, simplify};
+    use crate::remesh::map::LatticeMap;
+    use crate::remesh::mesher::Remesher;
+    use crate::simplify::{Input, SimplifyOptions, simplify};
     use crate::structure::placement_of;
     use std::collections::BTreeSet;
 
@@ -145,7 +146,7 @@ mod tests {
         for name in Example::ALL {
             let (mesh, _) = example(name, 1, CellKind::Quads).unwrap();
             let input = Input { polycube: &mesh, shape: None, labels: None };
-            let options = Options { strategy: crate::align::Strategy::Naive, ..Options::default() };
+            let options = SimplifyOptions { strategy: crate::align::Strategy::Naive, ..SimplifyOptions::default() };
             let result = simplify(&input, &options, &Context::default()).unwrap();
             let polycube = result.polycube.as_ref().unwrap();
             let levels = placement_of(&result.levels);

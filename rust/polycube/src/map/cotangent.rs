@@ -65,7 +65,7 @@ fn cotangents(p: [Point; 3]) -> [f64; 3] {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::generate::SplitMix64;
+    use crate::rng::SplitMix64;
     use proptest::prelude::*;
 
     fn weights(points: &[Point], triangles: &[[u32; 3]]) -> SparseRows {

@@ -193,7 +193,7 @@ fn worst<const N: usize>(found: &Values<N>, size: &Values<N>) -> f64 {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::generate::SplitMix64;
+    use crate::rng::SplitMix64;
     use nalgebra::{DMatrix, DVector};
     use proptest::prelude::*;
 

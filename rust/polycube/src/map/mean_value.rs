@@ -103,9 +103,9 @@ fn opposite(v: u32, tetrahedron: &[u32; 4]) -> [u32; 3] {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::generate::SplitMix64;
     use crate::map::testing::{jittered, tet_box};
     use crate::mesh::{Cells, Mesh};
+    use crate::rng::SplitMix64;
     use proptest::prelude::*;
 
     fn rows(mesh: &Mesh, inner: &[bool]) -> SparseRows {

@@ -1,7 +1,7 @@
 //! Small meshes, and the big ones, for the tests of this crate.
 
-use crate::generate::SplitMix64;
 use crate::mesh::{Cells, Face, Mesh, Point, Simplices, read};
+use crate::rng::SplitMix64;
 
 /// A box of unit cubes with a corner in the origin; vertex (x, y, z) has number x + (nx+1)(y + (ny+1) z).
 pub(crate) fn hex_box(n: [u32; 3]) -> Mesh {

@@ -18,7 +18,7 @@ const NONE: u32 = u32::MAX;
 /// # Errors
 /// [`ErrorKind::Mesh`] naming a cell when three cells share a face, or when there are too many for 32-bit indices;
 /// [`ErrorKind::Cancelled`].
-pub fn base_complex(hexes: &[[u32; 8]], context: &Context) -> Result<Vec<u32>> {
+pub(crate) fn base_complex(hexes: &[[u32; 8]], context: &Context) -> Result<Vec<u32>> {
     context.check()?;
     let faces = Faces::new(hexes)?;
     context.tick(0.4)?;

@@ -2,7 +2,7 @@
 //!
 //! [`scaled_jacobians`], [`Quality`] and [`CellMeasures`] say how good cells are, [`flipped`] what a map turned over,
 //! [`distortion`] how far one mesh is from a similarity of another, [`hausdorff`] how far a mesh is from a shape, and
-//! [`base_complex`] finds the blocks of any hexahedral mesh.
+//! `base_complex` finds the blocks of any hexahedral mesh.
 
 mod base_complex;
 mod cells;
@@ -13,14 +13,13 @@ pub(crate) mod hausdorff;
 mod quality;
 mod soundness;
 
-pub use base_complex::base_complex;
+pub(crate) use base_complex::base_complex;
 pub use cells::{CellMeasures, MeasureSummary, Spread};
 pub use distortion::{Distortion, distortion};
 pub use flipped::{Flipped, flipped};
 pub use hausdorff::hausdorff;
+pub(crate) use quality::BARS;
 pub(crate) use quality::edges;
-pub use quality::{
-    BARS, Quality, Statistics, cell_qualities, hexahedron_volume, quadrilateral_scaled_jacobian, scaled_jacobian,
-    scaled_jacobians, statistics, tetrahedron_scaled_jacobian, tetrahedron_volume,
-};
+pub use quality::{Quality, Statistics, cell_qualities, scaled_jacobian, scaled_jacobians, statistics};
+pub(crate) use quality::{quadrilateral_scaled_jacobian, tetrahedron_volume};
 pub(crate) use soundness::{AIM, GOOD, corner_soundness, mean_determinant, soundness};

@@ -54,7 +54,7 @@ pub fn scaled_jacobian(points: &[Point], hex: &[u32; 8]) -> f64 {
 ///
 /// # Panics
 /// When a vertex is not among `points`.
-pub fn tetrahedron_scaled_jacobian(points: &[Point], tet: &[u32; 4]) -> f64 {
+pub(super) fn tetrahedron_scaled_jacobian(points: &[Point], tet: &[u32; 4]) -> f64 {
     let at = tet.map(|v| points[v as usize]);
     let product = |i: usize| -> f64 { (0..4).filter(|j| *j != i).map(|j| (at[i] - at[j]).norm()).product() };
     let largest = (0..4).map(product).fold(0.0, f64::max);
@@ -68,7 +68,7 @@ pub fn tetrahedron_scaled_jacobian(points: &[Point], tet: &[u32; 4]) -> f64 {
 ///
 /// # Panics
 /// When a vertex is not among `points`.
-pub fn quadrilateral_scaled_jacobian(points: &[Point], quad: &[u32; 4]) -> f64 {
+pub(crate) fn quadrilateral_scaled_jacobian(points: &[Point], quad: &[u32; 4]) -> f64 {
     let at = quad.map(|v| points[v as usize]);
     let normal = ((at[1] - at[0]) + (at[2] - at[3])).cross(&((at[2] - at[1]) + (at[3] - at[0])));
     let corner = |i: usize| -> f64 {
@@ -83,7 +83,7 @@ pub fn quadrilateral_scaled_jacobian(points: &[Point], quad: &[u32; 4]) -> f64 {
 ///
 /// # Panics
 /// When a vertex is not among `points`.
-pub fn hexahedron_volume(points: &[Point], hex: &[u32; 8]) -> f64 {
+pub(super) fn hexahedron_volume(points: &[Point], hex: &[u32; 8]) -> f64 {
     let origin = points[hex[0] as usize];
     let at = hex.map(|v| points[v as usize] - origin);
     let cone = |a: usize, b: usize, c: usize| -> f64 { at[a].dot(&at[b].cross(&at[c])) };
@@ -96,7 +96,7 @@ pub fn hexahedron_volume(points: &[Point], hex: &[u32; 8]) -> f64 {
 ///
 /// # Panics
 /// When a vertex is not among `points`.
-pub fn tetrahedron_volume(points: &[Point], tet: &[u32; 4]) -> f64 {
+pub(crate) fn tetrahedron_volume(points: &[Point], tet: &[u32; 4]) -> f64 {
     edges(points, *tet).determinant() / 6.0
 }
 
@@ -167,7 +167,7 @@ impl Quality {
 }
 
 /// Number of bars of [`Statistics::histogram`].
-pub const BARS: usize = 20;
+pub(crate) const BARS: usize = 20;
 
 /// The quality of a whole mesh.
 #[derive(Clone, Debug, PartialEq, serde::Serialize)]

@@ -105,13 +105,14 @@ impl Elements {
     ///
     /// The optimiser then guarantees that the Jacobian is positive at all eight corners. That is what solvers and
     /// [`scaled_jacobian`](crate::measure::scaled_jacobian()) check; it does not prove it positive everywhere inside.
+    #[cfg(test)]
     pub fn cubes(hexes: &[[u32; 8]]) -> Self {
         let shapes = vec![Matrix3::identity(); 8 * hexes.len()];
         Self::new(corners(hexes), shapes, vec![1.0; 8 * hexes.len()], 8, Measure::ScaledJacobian)
     }
 
-    /// Hexahedra that should be boxes with about the edge lengths they have in `points`; as [`cubes`](Self::cubes)
-    /// otherwise.
+    /// Hexahedra that should be boxes with about the edge lengths they have in `points`; eight
+    /// corner tetrahedra each.
     ///
     /// The lengths are averaged over parallel edges, `smoothing` times over the neighbours as well (3 is a good number), so
     /// layers that are thin on purpose stay thin, while single odd edges do not count. O(n log n) for sorting the edges.
@@ -172,13 +173,9 @@ impl Elements {
     }
 
     /// Whether there is none.
+    #[cfg(test)]
     pub fn is_empty(&self) -> bool {
         self.corners.is_empty()
-    }
-
-    /// How the quality of the elements is measured.
-    pub fn measure(&self) -> Measure {
-        self.measure
     }
 
     /// Cell that element `i` belongs to.

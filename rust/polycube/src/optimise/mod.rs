@@ -33,9 +33,9 @@ mod region;
 mod tests;
 mod untangle;
 
-pub use elements::{Elements, Measure};
+pub use elements::Elements;
 pub use freedom::Freedom;
-pub use guide::{Contact, CurveGuide, Guide, SurfaceGuide, Tangent};
+pub use guide::{CurveGuide, Guide, SurfaceGuide, Tangent};
 
 use crate::context::Context;
 use crate::error::{Error, ErrorKind, Place, Result};
@@ -103,7 +103,7 @@ impl Default for Settings {
 /// What an optimisation did. Qualities are in [`Measure`] of the elements: for hexahedra how sound
 /// they are: scaled Jacobians, but no more than lengths of edges and determinants allow.
 #[derive(Clone, Debug, PartialEq, serde::Serialize)]
-pub struct Report {
+pub struct OptimiseReport {
     /// Cells with an inverted or flat element in the input.
     pub inverted_before: usize,
     /// The same in the result.
@@ -127,7 +127,7 @@ pub struct Report {
 ///
 /// Fixed coordinates keep their bits, and sliding points end on their guides. If the input, put on its guides, has no
 /// inverted element, neither has the result, and its worst quality is at least that of the input put on its guides. If
-/// it has, they are removed as far as the settings and the boundary allow; [`Report::inverted_after`] tells. References
+/// it has, they are removed as far as the settings and the boundary allow; [`OptimiseReport::inverted_after`] tells. References
 /// are scaled to the mean size of the elements.
 ///
 /// Each iteration takes linear time on all threads of the current rayon pool; about 500 bytes an element.
@@ -143,7 +143,7 @@ pub fn optimise(
     guides: &[&dyn Guide],
     settings: &Settings,
     context: &Context,
-) -> Result<Report> {
+) -> Result<OptimiseReport> {
     check(points, elements, freedom, settings)?;
     let constraints = Constraints::new(freedom, guides)?;
     let mut elements = elements.clone();
@@ -156,7 +156,7 @@ pub fn optimise(
     run(&mut problem, &mut moved, settings, context)?;
     problem.constraints.restore(&mut moved, points);
     let after = problem.assembly.census(&moved);
-    let report = Report {
+    let report = OptimiseReport {
         inverted_before: before.inverted,
         inverted_after: after.inverted,
         worst_before: before.worst,

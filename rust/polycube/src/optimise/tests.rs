@@ -1,9 +1,11 @@
 //! The optimiser on meshes with known answers.
 
 use super::*;
-use crate::generate::{Cuboid, Example, SplitMix64, Voxels, example};
+use crate::generate::{Cuboid, Example, Voxels, example};
 use crate::measure::{cell_qualities, statistics};
 use crate::mesh::{CellKind, Cells, Mesh};
+use crate::optimise::guide::Contact;
+use crate::rng::SplitMix64;
 use nalgebra::Vector3;
 use std::sync::atomic::{AtomicUsize, Ordering};
 use std::sync::{Arc, OnceLock};
@@ -39,7 +41,7 @@ fn tets(mesh: &Mesh) -> &[[u32; 4]] {
     cells
 }
 
-fn run(mesh: &mut Mesh, elements: &Elements, freedom: &[Freedom], guides: &[&dyn Guide]) -> Report {
+fn run(mesh: &mut Mesh, elements: &Elements, freedom: &[Freedom], guides: &[&dyn Guide]) -> OptimiseReport {
     optimise(mesh.points_mut(), elements, freedom, guides, &Settings::default(), &Context::default()).unwrap()
 }
 
@@ -202,7 +204,7 @@ fn results_do_not_depend_on_the_number_of_threads() {
 
 /// Optimises a ball and cancels at the step `last` that is reported, from 0: what came of it and how many were
 /// reported.
-fn cancelled_at(last: usize, mesh: &mut Mesh, freedom: &[Freedom]) -> (Result<Report>, usize) {
+fn cancelled_at(last: usize, mesh: &mut Mesh, freedom: &[Freedom]) -> (Result<OptimiseReport>, usize) {
     let elements = Elements::cubes(hexes(mesh));
     let (slot, steps): (Arc<OnceLock<Context>>, Arc<AtomicUsize>) = Default::default();
     let (own, counted) = (Arc::clone(&slot), Arc::clone(&steps));

@@ -78,7 +78,7 @@ pub(crate) fn mesh_volume(
     stages.mesh += (optimising - start).as_secs_f64();
     let bound = options.max_hausdorff * diagonal(shape);
     let Improved { released, far } =
-        finish(coarse, &remesher, &mut hexes, options, Aim::Within(bound), &context.stage("optimise", 0.2, 0.97))?;
+        finish(coarse, &remesher, &mut hexes, Aim::Within(bound), &context.stage("optimise", 0.2, 0.97))?;
     stages.optimise += optimising.elapsed().as_secs_f64();
     let context = context.stage("mesh", 0.97, 1.0);
     context.tick(0.0)?;

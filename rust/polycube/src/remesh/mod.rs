@@ -1,15 +1,12 @@
 //! From a simplified polycube to coarse layouts, quadrilateral and hexahedral meshes (paper, section 7).
 //!
-//! [`remesh`] is the way in; it does all of the following. A [`Remesher`] holds the lattice inside the polycube and the
-//! map from there to the shape. From it come the [`layout`](Remesher::layout) (one cell per block and per patch),
-//! [`quads`](Remesher::quads) and [`hexes`](Remesher::hexes). [`scale_for`] finds the scale of the lattice for a wanted
-//! size.
+//! [`remesh`] is the way in: its result has a [`Layout`] (one cell per block and per patch), [`Quads`] and [`Hexes`].
 
 mod fit;
-mod lattice;
-mod map;
+pub(crate) mod lattice;
+pub(crate) mod map;
 mod meshed;
-mod mesher;
+pub(crate) mod mesher;
 mod options;
 mod pipeline;
 mod report;
@@ -19,11 +16,11 @@ mod stages;
 #[cfg(test)]
 mod tests;
 
-pub use lattice::{Carrier, MOST_HEXES, Size, count_hexes, scale_for};
-pub use map::LatticeMap;
+pub use lattice::Size;
+pub(crate) use lattice::count_hexes;
 pub(crate) use map::Refined;
-pub use mesher::{Hexes, Layout, MAX_PADDING, Quads, Remesher, SingularEdge};
+pub use mesher::{Hexes, Layout, Quads, SingularEdge};
 pub use options::RemeshOptions;
 pub use pipeline::{Remeshed, remesh};
-pub use report::{InvertedCell, MOST_LISTED, RemeshReport};
+pub use report::{InvertedCell, RemeshReport};
 pub use stages::Stages;

@@ -2,7 +2,6 @@
 
 use crate::align::Strategy;
 use crate::error::Result;
-use crate::optimise::Settings;
 use crate::range::Range;
 use crate::remesh::lattice::Size;
 use crate::remesh::mesher::check_padding;
@@ -16,30 +15,26 @@ pub struct RemeshOptions {
     /// count, unless only the surface is meshed. Unless the options say where on the front, how far corners may move,
     /// or how distorted the map may be, more blocks than the fewest are taken where those make poor hexahedra, and a
     /// note says so.
-    pub simplify: simplify::Options,
-    /// How fine the mesh shall be; by default as [`simplify::Options::scale`] says.
+    pub simplify: simplify::SimplifyOptions,
+    /// How fine the mesh shall be; by default as [`simplify::SimplifyOptions::scale`] says.
     pub size: Option<Size>,
-    /// Layers of hexahedra between the polycube and the surface, 0 to [`MAX_PADDING`](super::MAX_PADDING); 1 by
-    /// default.
+    /// Layers of hexahedra between the polycube and the surface, 0 to 16; 1 by default.
     pub padding: usize,
     /// Leave the hexahedra out.
     pub surface_only: bool,
     /// The largest Hausdorff distance to accept, as a **fraction** of the bounding box's diagonal; 0.005 by default,
     /// half a percent. (The command and Python take percent.)
     pub max_hausdorff: f64,
-    /// How hard the hexahedra are optimised; `scope` is not looked at, both ways are tried.
-    pub optimise: Settings,
 }
 
 impl Default for RemeshOptions {
     fn default() -> Self {
         Self {
-            simplify: simplify::Options::default(),
+            simplify: simplify::SimplifyOptions::default(),
             size: None,
             padding: 1,
             surface_only: false,
             max_hausdorff: 0.005,
-            optimise: Settings::default(),
         }
     }
 }

@@ -57,9 +57,9 @@ pub struct Remeshed {
 /// ```
 ///
 /// # Errors
-/// Those of [`simplify()`], [`scale_for`](super::scale_for()), [`Remesher`](super::Remesher) and
-/// [`optimise`](crate::optimise::optimise()); [`ErrorKind::Option`] for any option out of its range, before anything is
-/// done, and for a size that takes more hexahedra than [`MOST_HEXES`](super::MOST_HEXES); [`ErrorKind::Cancelled`].
+/// Those of [`simplify()`], `scale_for`, `Remesher` and
+/// `optimise`; [`ErrorKind::Option`] for any option out of its range, before anything is
+/// done, and for a size that takes more hexahedra than 536,870,911; [`ErrorKind::Cancelled`].
 pub fn remesh(input: &Input, options: &RemeshOptions, context: &Context) -> Result<Remeshed> {
     options.check()?;
     let start = Instant::now();
@@ -83,10 +83,10 @@ pub fn remesh(input: &Input, options: &RemeshOptions, context: &Context) -> Resu
 
 /// How the polycube is simplified: for hexahedra it is padded blocks that count, whatever the cells of the polycube
 /// are.
-fn simplifying(options: &RemeshOptions) -> simplify::Options {
+fn simplifying(options: &RemeshOptions) -> simplify::SimplifyOptions {
     let blocks = (!options.surface_only).then_some(Objective::BlocksPadded);
     let objective = options.simplify.objective.or(blocks);
-    simplify::Options { objective, keep_flipped: true, ..options.simplify.clone() }
+    simplify::SimplifyOptions { objective, keep_flipped: true, ..options.simplify.clone() }
 }
 
 /// A mesh and what it is of.

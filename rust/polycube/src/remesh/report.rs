@@ -14,15 +14,15 @@ use crate::simplify::{self, Note, Simplified};
 /// More cells than this are not advised.
 const MOST_ADVISED: f64 = 1e7;
 /// How many inverted hexahedra are named one by one.
-pub const MOST_LISTED: usize = 1000;
+pub(super) const MOST_LISTED: usize = 1000;
 
-/// What was done, for people and programs: what [`simplify::Report`] says and how good the meshes are.
+/// What was done, for people and programs: what [`simplify::SimplifyReport`] says and how good the meshes are.
 #[derive(Clone, Debug, PartialEq, serde::Serialize)]
 pub struct RemeshReport {
     /// What the simplification did, with the seconds of all stages of the remeshing. Scale, displacement and distortion
     /// are those on the even lattice, also where the levels were [`spaced`](Self::spaced) after that.
     #[serde(flatten)]
-    pub simplify: simplify::Report,
+    pub simplify: simplify::SimplifyReport,
     /// Whether the levels were spaced by the shape: as many lattice steps between two as its edges there are long. A
     /// lattice step is then no fixed length on the polycube.
     pub spaced: bool,

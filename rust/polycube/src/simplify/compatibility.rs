@@ -6,7 +6,7 @@ use crate::mesh::{Face, Mesh, Point};
 use crate::structure::{Polycube, area_vector};
 
 /// No coordinate may be larger: the sixth powers of lengths, which energies have, are still numbers.
-pub const LARGEST_COORDINATE: f64 = 1e50;
+pub(super) const LARGEST_COORDINATE: f64 = 1e50;
 
 /// A volume below this part of the sum of what it is made of may as well be zero.
 const NOISE: f64 = 1e-9;
@@ -130,12 +130,12 @@ mod tests {
     use crate::context::Context;
     use crate::generate::{Example, example};
     use crate::mesh::{CellKind, Cells};
-    use crate::simplify::{Note, Options, Simplified, fit, read_structure, simplify};
+    use crate::simplify::{Note, Simplified, SimplifyOptions, fit, read_structure, simplify};
     use crate::structure::Tolerance;
     use crate::validate::{Subject, validate};
 
-    fn paper() -> Options {
-        Options { strategy: crate::align::Strategy::Paper, ..Options::default() }
+    fn paper() -> SimplifyOptions {
+        SimplifyOptions { strategy: crate::align::Strategy::Paper, ..SimplifyOptions::default() }
     }
 
     fn simplified(input: &Input) -> Simplified {

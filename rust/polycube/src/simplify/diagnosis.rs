@@ -8,7 +8,7 @@ use crate::structure::{Polycube, Tolerance, Violation};
 const SKEW: usize = 5;
 
 /// The error of a mesh that is not a polycube.
-pub fn diagnose(violations: Vec<Violation>, input: &Input, tolerance: &Tolerance) -> Error {
+pub(super) fn diagnose(violations: Vec<Violation>, input: &Input, tolerance: &Tolerance) -> Error {
     let remedy = remedy(&violations, input, tolerance);
     let count = violations.len();
     let error = first_of_many(violations.into_iter().next().unwrap_or(Violation::Empty), count);
@@ -19,7 +19,7 @@ pub fn diagnose(violations: Vec<Violation>, input: &Input, tolerance: &Tolerance
 }
 
 /// The first of `count` violations.
-pub fn first_of_many(first: Violation, count: usize) -> Error {
+pub(super) fn first_of_many(first: Violation, count: usize) -> Error {
     let others = count.saturating_sub(1);
     let mut error = Error::from(first);
     if others > 0 {
@@ -30,7 +30,7 @@ pub fn first_of_many(first: Violation, count: usize) -> Error {
 }
 
 /// What helps against all violations together, where that is better than what helps against each.
-pub fn remedy(violations: &[Violation], input: &Input, tolerance: &Tolerance) -> Option<&'static str> {
+pub(crate) fn remedy(violations: &[Violation], input: &Input, tolerance: &Tolerance) -> Option<&'static str> {
     if input.shape.is_some_and(|shape| Polycube::new(shape, None, tolerance).is_ok()) {
         return Some("swap the two: what was given as the shape is a polycube, this is none");
     }

@@ -1,7 +1,7 @@
 //! Moving along the front between few blocks and little displacement, without searching again.
 
 use super::report::max_displacement;
-use super::{Cause, Input, Report, Seconds, Simplified, finish};
+use super::{Cause, Input, Seconds, Simplified, SimplifyReport, finish};
 use crate::align::{self, Alignment, Strategy, TradeOff};
 use crate::context::Context;
 use crate::error::{Error, ErrorKind, Result};
@@ -34,11 +34,11 @@ impl Simplified {
     /// use polycube::generate::{Example, example};
     /// use polycube::mesh::CellKind;
     /// use polycube::simplify::simplify;
-    /// use polycube::{Context, Input, Options};
+    /// use polycube::{Context, Input, SimplifyOptions};
     ///
     /// let (cube, shape) = example(Example::CubeSpikes, 1, CellKind::Quads)?;
     /// let input = Input { polycube: &cube, shape: Some(&shape), labels: None };
-    /// let coarse = simplify(&input, &Options::default(), &Context::default())?;
+    /// let coarse = simplify(&input, &SimplifyOptions::default(), &Context::default())?;
     /// let near = coarse.at(&input, 0.0, &Context::default())?;
     ///
     /// assert_eq!((coarse.report.chosen, near.report.chosen), (Some(0), Some(near.report.front.len() - 1)));
@@ -48,7 +48,7 @@ impl Simplified {
     ///
     /// # Errors
     /// [`ErrorKind::Option`] for a simplicity out of range, or if there is no front (only [`Strategy::Best`] finds
-    /// one); [`ErrorKind::Mismatch`] if `input` has other cells; those of [`align::place`]; [`ErrorKind::Cancelled`].
+    /// one); [`ErrorKind::Mismatch`] if `input` has other cells; those of `align::place`; [`ErrorKind::Cancelled`].
     pub fn at(&self, input: &Input, simplicity: f64, context: &Context) -> Result<Self> {
         let start = Instant::now();
         let located = self.locate(simplicity, context)?;
@@ -144,7 +144,7 @@ impl Simplified {
             chosen: Some(located.index),
             bound: old.bound,
         };
-        let mut report = Report::new(polycube, &alignment, Strategy::Best, old.scale);
+        let mut report = SimplifyReport::new(polycube, &alignment, Strategy::Best, old.scale);
         report.note_displacement(options, old.cause_of_displacement().unwrap_or(Cause::Choice));
         finish(input, polycube.clone(), alignment.levels, report, options, context)
     }

@@ -1,6 +1,6 @@
 //! What was done, for people and programs.
 
-use super::{Cause, Input, Note, Options};
+use super::{Cause, Input, Note, SimplifyOptions};
 use crate::align::{Alignment, LowerBound, Round, Strategy, TradeOff, keeps};
 use crate::context::Context;
 use crate::error::Result;
@@ -11,7 +11,7 @@ use crate::structure::{Deviation, Polycube};
 
 /// What was done, for people and programs.
 #[derive(Clone, Debug, PartialEq, serde::Serialize)]
-pub struct Report {
+pub struct SimplifyReport {
     /// How the levels found their places.
     pub strategy: Strategy,
     /// Lattice steps per unit of the input.
@@ -47,7 +47,7 @@ pub struct Report {
     pub notes: Vec<Note>,
 }
 
-impl Report {
+impl SimplifyReport {
     /// What is known before the mesh is morphed.
     pub(super) fn new(polycube: &Polycube, alignment: &Alignment, strategy: Strategy, scale: f64) -> Self {
         let notes = match alignment.broken.len() {
@@ -75,7 +75,7 @@ impl Report {
     }
 
     /// Says so if corners move farther than the options allow, because of `cause`.
-    pub(super) fn note_displacement(&mut self, options: &Options, cause: Cause) {
+    pub(super) fn note_displacement(&mut self, options: &SimplifyOptions, cause: Cause) {
         let moved = self.max_displacement;
         if let Some(limit) = options.max_displacement.filter(|&limit| !keeps(moved, limit, self.scale)) {
             self.notes.push(Note::Displacement { moved, limit, cause });
@@ -83,7 +83,7 @@ impl Report {
     }
 
     /// Says so if the map of a valid result is distorted more than the options allow, because of `cause`.
-    pub(super) fn note_distortion(&mut self, options: &Options, cause: Cause) {
+    pub(super) fn note_distortion(&mut self, options: &SimplifyOptions, cause: Cause) {
         let angle = self.distortion.map_or(f64::INFINITY, |[_, after]| after.angle);
         if let Some(limit) = options.max_distortion.filter(|&l| self.valid && l < angle) {
             self.notes.push(Note::Distortion { angle, limit, cause });

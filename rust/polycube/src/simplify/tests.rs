@@ -1,6 +1,6 @@
 //! Options out of their ranges, and what is said of limits that are not kept.
 
-use super::{Cause, Input, Note, Options, Simplified, read_structure, simplify};
+use super::{Cause, Input, Note, Simplified, SimplifyOptions, read_structure, simplify};
 use crate::context::Context;
 use crate::error::ErrorKind;
 use crate::generate::{Example, example};
@@ -17,7 +17,7 @@ fn input(polycube: &Mesh) -> Input<'_> {
 
 #[test]
 fn numbers_out_of_their_ranges_are_refused_by_the_names_of_their_fields() {
-    type Set = fn(&mut Options, f64);
+    type Set = fn(&mut SimplifyOptions, f64);
     let wrong: [(&str, Set, &[f64]); 8] = [
         ("scale", |o, x| o.scale = Some(x), &[0.0, -1.0]),
         ("lambda_min", |o, x| o.lambda_min = x, &[-7.0, 1.1]),
@@ -32,12 +32,12 @@ fn numbers_out_of_their_ranges_are_refused_by_the_names_of_their_fields() {
     let begun = Context::new(|stage, _| panic!("{stage} was begun"));
     for (name, set, bad) in wrong {
         for &x in bad.iter().chain(&[f64::NAN, f64::INFINITY]) {
-            let mut options = Options::default();
+            let mut options = SimplifyOptions::default();
             set(&mut options, x);
             let error = simplify(&input(&mesh), &options, &begun).unwrap_err();
             assert_eq!((error.kind, error.option), (ErrorKind::Option, Some(name)), "{x}");
             assert!(error.message.contains(name) && !error.remedy.is_empty(), "{error}");
-            if options.tolerance != Options::default().tolerance {
+            if options.tolerance != SimplifyOptions::default().tolerance {
                 assert_eq!(read_structure(&input(&mesh), &options.tolerance).unwrap_err(), error);
                 assert_eq!(validate(&input(&mesh), &options.tolerance).unwrap_err(), error);
             }
@@ -46,8 +46,9 @@ fn numbers_out_of_their_ranges_are_refused_by_the_names_of_their_fields() {
 }
 
 /// The ring, on a lattice that holds it.
-fn kept(mesh: &Mesh, options: Options) -> Simplified {
-    let result = simplify(&input(mesh), &Options { scale: Some(20.0), ..options }, &Context::default()).unwrap();
+fn kept(mesh: &Mesh, options: SimplifyOptions) -> Simplified {
+    let result =
+        simplify(&input(mesh), &SimplifyOptions { scale: Some(20.0), ..options }, &Context::default()).unwrap();
     assert!(result.report.notes.is_empty(), "{:?}", result.report.notes);
     result
 }
@@ -55,7 +56,7 @@ fn kept(mesh: &Mesh, options: Options) -> Simplified {
 #[test]
 fn no_corner_moves_where_none_may_and_what_breaks_that_is_said() {
     let mesh = ring();
-    let still = kept(&mesh, Options { max_displacement: Some(0.0), ..Options::default() });
+    let still = kept(&mesh, SimplifyOptions { max_displacement: Some(0.0), ..SimplifyOptions::default() });
     assert!(still.report.max_displacement < 1e-12);
     let cause = |result: &Simplified| result.report.cause_of_displacement();
     let (context, input) = (Context::default(), input(&mesh));
@@ -65,7 +66,7 @@ fn no_corner_moves_where_none_may_and_what_breaks_that_is_said() {
     assert_eq!(cause(&coarse.rescaled(&input, 20.0, &context).unwrap()), None);
     assert_eq!(cause(&still.at(&input, 1.0, &context).unwrap()), Some(Cause::Choice));
     assert_eq!(cause(&still.at(&input, 0.0, &context).unwrap()), None);
-    let options = Options { max_displacement: Some(0.0), scale: Some(0.37), ..Options::default() };
+    let options = SimplifyOptions { max_displacement: Some(0.0), scale: Some(0.37), ..SimplifyOptions::default() };
     let missed = simplify(&input, &options, &context).unwrap();
     assert_eq!(cause(&missed), Some(Cause::Search));
     assert_eq!(cause(&missed.rescaled(&input, 0.41, &context).unwrap()), Some(Cause::Search));
@@ -74,7 +75,7 @@ fn no_corner_moves_where_none_may_and_what_breaks_that_is_said() {
 #[test]
 fn a_distortion_that_is_not_kept_elsewhere_is_said() {
     let mesh = ring();
-    let still = kept(&mesh, Options { max_distortion: Some(1.0 + 1e-9), ..Options::default() });
+    let still = kept(&mesh, SimplifyOptions { max_distortion: Some(1.0 + 1e-9), ..SimplifyOptions::default() });
     let cause = |result: &Simplified| result.report.cause_of_distortion();
     let (context, input) = (Context::default(), input(&mesh));
     assert_eq!(cause(&still.rescaled(&input, 0.37, &context).unwrap()), Some(Cause::Scale));

@@ -63,7 +63,7 @@ impl std::fmt::Display for Label {
 }
 
 /// Twice the area vector of a face: its length is twice the area, its direction the outward normal.
-pub fn area_vector(points: &[Point], face: &Face) -> Vector3<f64> {
+pub(crate) fn area_vector(points: &[Point], face: &Face) -> Vector3<f64> {
     let at = |v: u32| points[v as usize];
     match *face {
         Face::Triangle([a, b, c]) => (at(b) - at(a)).cross(&(at(c) - at(a))),

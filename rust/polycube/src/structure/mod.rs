@@ -15,12 +15,13 @@ mod surface;
 mod violation;
 
 pub use arrangement::{Arrangement, Conflict};
-pub use label::{Label, area_vector};
+pub use label::Label;
+pub(crate) use label::area_vector;
 pub(crate) use overlaps::Overlaps;
 pub use polycube::{Deviation, Polycube, Tolerance};
-pub use rectangles::LevelBox;
-pub(crate) use rectangles::rectangles;
-pub use surface::{HalfEdge, Surface};
+pub(crate) use rectangles::{LevelBox, rectangles};
+pub(crate) use surface::HalfEdge;
+pub use surface::Surface;
 pub use violation::Violation;
 
 /// The coordinate of every level, in the order of [`Structure::levels`].

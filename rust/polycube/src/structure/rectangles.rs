@@ -38,7 +38,7 @@ struct Open {
 /// A plane sweep over the facet's sides. `None` where the region is covered more than once or from the wrong side, so
 /// that its loops do not bound a plane region. O(k log k) for k sides when few of them overlap along the sweep, O(k²)
 /// at worst.
-pub fn rectangles(structure: &Structure, facet: &Facet, placement: &[f64]) -> Option<Vec<LevelBox>> {
+pub(crate) fn rectangles(structure: &Structure, facet: &Facet, placement: &[f64]) -> Option<Vec<LevelBox>> {
     let axis = facet.label.axis();
     let (u, v) = ((axis + 1) % 3, (axis + 2) % 3);
     let mut events = events(structure, facet, placement, u, v);

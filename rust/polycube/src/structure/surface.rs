@@ -4,7 +4,7 @@ use super::violation::Violation;
 use crate::mesh::Face;
 
 /// A side of a face, numbered `4 * face + side`; it runs from vertex `side` of the face to the next one.
-pub type HalfEdge = u32;
+pub(crate) type HalfEdge = u32;
 
 const NONE: u32 = u32::MAX;
 

@@ -9,7 +9,7 @@ pub mod models;
 use polycube::generate::Voxels;
 use polycube::mesh::{CellKind, Mesh};
 use polycube::structure::{Polycube, Tolerance};
-use polycube::{Context, Input, Options, Simplified};
+use polycube::{Context, Input, Simplified, SimplifyOptions};
 
 /// The mesh of the voxels with the fewest cells.
 pub fn coarse(voxels: &Voxels, kind: CellKind) -> Mesh {
@@ -27,7 +27,7 @@ pub fn labels(polycube: &Polycube) -> Vec<i8> {
 }
 
 /// Simplifies a polycube without a shape; its labels come from its normals.
-pub fn simplify(mesh: &Mesh, options: &Options) -> polycube::Result<Simplified> {
+pub fn simplify(mesh: &Mesh, options: &SimplifyOptions) -> polycube::Result<Simplified> {
     let input = Input { polycube: mesh, shape: None, labels: None };
     polycube::simplify::simplify(&input, options, &Context::default())
 }
@@ -44,6 +44,6 @@ pub fn cases(few: u64) -> u64 {
 }
 
 /// Algorithm 1 with its defaults.
-pub fn paper() -> Options {
-    Options { strategy: polycube::align::Strategy::Paper, ..Options::default() }
+pub fn paper() -> SimplifyOptions {
+    SimplifyOptions { strategy: polycube::align::Strategy::Paper, ..SimplifyOptions::default() }
 }

@@ -19,7 +19,7 @@ use clap::ValueHint;
 use pairs::Pair;
 use polycube::compare::{Comparison, compare};
 use polycube::remesh::RemeshOptions;
-use polycube::simplify::{Input, Options};
+use polycube::simplify::{Input, SimplifyOptions};
 use polycube::{Context, ErrorKind};
 use row::Row;
 use std::path::PathBuf;
@@ -112,7 +112,11 @@ impl Args {
     }
 
     fn options(&self) -> RemeshOptions {
-        let simplify = Options { strategy: self.strategy.0, tolerance: self.tolerance.get(), ..Options::default() };
+        let simplify = SimplifyOptions {
+            strategy: self.strategy.0,
+            tolerance: self.tolerance.get(),
+            ..SimplifyOptions::default()
+        };
         self.mesh.set(RemeshOptions { simplify: self.choice.set(simplify), ..RemeshOptions::default() })
     }
 }

@@ -22,7 +22,7 @@ use files::{Formats, MESHES, files};
 use polycube::Context;
 use polycube::mesh::{self, Format};
 use polycube::remesh::{RemeshOptions, Remeshed, remesh};
-use polycube::simplify::Options;
+use polycube::simplify::SimplifyOptions;
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 use std::time::Instant;
@@ -114,7 +114,11 @@ pub struct Args {
 
 impl Args {
     fn options(&self) -> RemeshOptions {
-        let simplify = Options { strategy: self.strategy.0, tolerance: self.tolerance.get(), ..Options::default() };
+        let simplify = SimplifyOptions {
+            strategy: self.strategy.0,
+            tolerance: self.tolerance.get(),
+            ..SimplifyOptions::default()
+        };
         self.mesh.set(RemeshOptions {
             simplify: self.search.set(self.choice.set(simplify)),
             max_hausdorff: self.max_hausdorff / 100.0,

@@ -17,7 +17,7 @@ use crate::output::report::{self, Files, RunReport, StructureFile};
 use crate::output::{table, terminal};
 use clap::{Arg, ValueHint};
 use polycube::mesh::{self, CellKind, Format};
-use polycube::simplify::{Options, Simplified};
+use polycube::simplify::{Simplified, SimplifyOptions};
 use polycube::{Context, Error, ErrorKind};
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
@@ -110,12 +110,12 @@ fn max_distortion(arg: Arg) -> Arg {
 }
 
 impl Args {
-    fn options(&self) -> Options {
-        self.search.set(self.choice.set(Options {
+    fn options(&self) -> SimplifyOptions {
+        self.search.set(self.choice.set(SimplifyOptions {
             strategy: self.strategy.0,
             scale: self.scale.or(self.edge_length.map(f64::recip)),
             tolerance: self.mesh.tolerance.get(),
-            ..Options::default()
+            ..SimplifyOptions::default()
         }))
     }
 

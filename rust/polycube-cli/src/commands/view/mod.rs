@@ -106,12 +106,12 @@ fn work(args: &Args, context: &Context) -> Result<()> {
     context.stage("read", 0.0, 0.1).tick(0.0)?;
     let meshes = MeshFiles::read(&args.mesh.polycube, args.shape.as_deref(), args.mesh.labels.file.as_deref())?;
     let hexes = args.hexes.as_deref().map(hexes::read).transpose()?;
-    let options = polycube::Options {
+    let options = polycube::SimplifyOptions {
         strategy: args.strategy.0,
         lambda_min: args.rounds.lambda_min,
         objective: Some(default_objective(&meshes.polycube)),
         tolerance: args.mesh.tolerance.get(),
-        ..polycube::Options::default()
+        ..polycube::SimplifyOptions::default()
     };
     let about = Failure::in_file(&args.mesh.polycube);
     let scene = Scene::new(&meshes, &options, args.up as usize, &context.stage("view", 0.1, 0.9)).map_err(about)?;

@@ -1,6 +1,6 @@
 //! A picture without a display: input above result where there is a shape, else beside it.
 
-use super::raster::{Corner, Raster};
+use super::raster::{ProjectedCorner, Raster};
 use super::scene::{Layout, Scene};
 use crate::output::colour::{self, Colour};
 use polycube::mesh::Point;
@@ -43,7 +43,7 @@ fn pane(scene: &Scene, layout: &Layout, on: Option<&[Point]>, size: usize) -> Pa
     let normals = if on.is_some() { Some(normals(&scene.triangles, points)) } else { None };
     let mut raster = Raster::new(fine);
     for (triangle, &facet) in scene.triangles.iter().zip(&scene.facet) {
-        let corner = |v: u32| Corner {
+        let corner = |v: u32| ProjectedCorner {
             screen: screen[v as usize],
             place: from_fn(|a| layout.points[v as usize][a] as f32),
             light: light(

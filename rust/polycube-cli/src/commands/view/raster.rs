@@ -5,7 +5,7 @@ use crate::output::colour::{Colour, INK, pastel};
 
 /// A corner of a triangle, seen.
 #[derive(Clone, Copy)]
-pub struct Corner {
+pub struct ProjectedCorner {
     /// Pixels to the right, pixels down, and the distance towards the eye.
     pub screen: [f32; 3],
     /// The place on the polycube.
@@ -41,7 +41,7 @@ impl Raster {
     }
 
     /// Draws a triangle of `facet` where nothing nearer is.
-    pub fn triangle(&mut self, facet: u32, corners: &[Corner; 3]) {
+    pub fn triangle(&mut self, facet: u32, corners: &[ProjectedCorner; 3]) {
         let [a, b, c] = corners.map(|c| c.screen);
         let area = cross(a, b, c);
         if area == 0.0 || !area.is_finite() {
@@ -63,8 +63,8 @@ impl Raster {
         }
     }
 
-    fn put(&mut self, pixel: usize, facet: u32, corners: &[Corner; 3], weights: [f32; 3]) {
-        let mix = |f: &dyn Fn(&Corner) -> f32| corners.iter().zip(weights).map(|(c, w)| f(c) * w).sum::<f32>();
+    fn put(&mut self, pixel: usize, facet: u32, corners: &[ProjectedCorner; 3], weights: [f32; 3]) {
+        let mix = |f: &dyn Fn(&ProjectedCorner) -> f32| corners.iter().zip(weights).map(|(c, w)| f(c) * w).sum::<f32>();
         let depth = mix(&|c| c.screen[2]);
         if depth > self.seen[pixel].depth {
             let place = std::array::from_fn(|a| mix(&|c| c.place[a]));

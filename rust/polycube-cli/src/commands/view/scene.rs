@@ -2,10 +2,10 @@
 
 use super::cells::Pieces;
 use crate::input::meshes::MeshFiles;
-use polycube::align::{self, Guides, Round};
+use polycube::align::Round;
 use polycube::layout::Counts;
 use polycube::mesh::{Cells, Face, Mesh, Point, Simplices};
-use polycube::simplify::{Input, Options, Simplified, fit, simplify};
+use polycube::simplify::{Input, Simplified, SimplifyOptions, fit, simplify};
 use polycube::structure::{Arrangement, Polycube, placement_of};
 use polycube::{Context, Error, ErrorKind, Result};
 
@@ -60,7 +60,7 @@ impl Scene {
     ///
     /// # Errors
     /// Those of [`simplify`]; [`ErrorKind::Polycube`] when there is no valid result.
-    pub fn new(meshes: &MeshFiles, options: &Options, up: usize, context: &Context) -> Result<Self> {
+    pub fn new(meshes: &MeshFiles, options: &SimplifyOptions, up: usize, context: &Context) -> Result<Self> {
         let (surface, kept) = surface_of(&meshes.polycube)?;
         let input = Input { polycube: &surface, shape: None, labels: meshes.labels.as_deref() };
         let result = simplify(&input, options, &context.stage("simplify", 0.0, 0.5))?;
@@ -95,10 +95,8 @@ impl Scene {
         let (polycube, scale) = (&result.input, result.report.scale);
         let start = polycube.placement.iter().map(|x| x * scale).collect();
         let mut steps: Vec<(Option<Round>, Counts, Vec<f64>)> = vec![(None, result.report.before, start)];
-        let (structure, input, guides) = (&polycube.structure, &polycube.placement, Guides::default());
         for round in &result.report.rounds {
-            let placing = context.stage("layouts", 0.0, 0.1);
-            let levels = align::rescale(structure, input, &round.levels, scale, &guides, &placing)?;
+            let levels = result.levels_after(round, &context.stage("layouts", 0.0, 0.1))?;
             steps.push((Some(round.clone()), round.counts, placement_of(&levels)));
         }
         steps.push((None, after, placement_of(&result.levels)));

@@ -13,7 +13,7 @@ const TOLERANCE: f64 = 0.25;
 /// # Errors
 /// [`ErrorKind::Option`] if the axis or the place of the plane is no number that makes sense, or if the input is not
 /// symmetric about it, with a corner or a facet that has no image.
-pub fn images(structure: &Structure, input: &[f64], plane: &Symmetry) -> Result<Vec<u32>> {
+pub(super) fn images(structure: &Structure, input: &[f64], plane: &Symmetry) -> Result<Vec<u32>> {
     if plane.axis > 2 || !plane.at.is_finite() {
         let message = format!("axis {} at {} is no plane of symmetry", plane.axis, plane.at);
         return Err(Error::new(ErrorKind::Option, message).remedy("give the axis as 0, 1 or 2 and a finite number"));
@@ -36,7 +36,7 @@ pub fn images(structure: &Structure, input: &[f64], plane: &Symmetry) -> Result<
 
 /// The planes through the middle of the polycube that it is symmetric about: the axis across, and the image of each
 /// level.
-pub fn symmetries(structure: &Structure, input: &[f64]) -> Vec<(usize, Vec<u32>)> {
+pub(crate) fn symmetries(structure: &Structure, input: &[f64]) -> Vec<(usize, Vec<u32>)> {
     let middle = |axis: usize| {
         let along = structure.levels.iter().zip(input).filter(|(l, _)| l.axis == axis).map(|(_, &x)| x);
         let (low, high) = along.fold((f64::INFINITY, f64::NEG_INFINITY), |(l, h), x| (l.min(x), h.max(x)));

@@ -6,7 +6,7 @@ use crate::align::chain::{Plane, chain};
 const SAME: f64 = 1e-9;
 
 /// A plane of symmetry across an axis.
-pub struct Mirror {
+pub(crate) struct Mirror {
     /// The image of each level; those of other axes have themselves.
     pub image: Vec<u32>,
     /// Where the plane cuts the axis, in lattice steps.
@@ -19,14 +19,14 @@ pub struct Mirror {
 
 impl Mirror {
     /// The plane that cuts the axis at `at` lattice steps.
-    pub fn new(image: Vec<u32>, at: f64) -> Self {
+    pub(crate) fn new(image: Vec<u32>, at: f64) -> Self {
         Self { image, at, centred: Vec::new(), held: None }
     }
 
     /// Takes the sum of the coordinates of two fixed levels that mirror each other for twice the coordinate of the
     /// plane; `false` if others are fixed to another sum, if that is more than a lattice step away, or off the lattice
     /// where a level must lie in it.
-    pub fn hold(&mut self, doubled: i64) -> bool {
+    pub(crate) fn hold(&mut self, doubled: i64) -> bool {
         let near = (doubled as f64 - 2.0 * self.at).abs() <= 2.0;
         let on_lattice = self.centred.is_empty() || doubled % 2 == 0;
         *self.held.get_or_insert(doubled) == doubled && near && on_lattice
@@ -45,7 +45,7 @@ impl Mirror {
 
     /// Places the lower half nearest to the targets of both halves, and mirrors it; nothing if fixed planes do not
     /// allow that.
-    pub fn place(&self, planes: &[Plane]) -> Option<Vec<i64>> {
+    pub(crate) fn place(&self, planes: &[Plane]) -> Option<Vec<i64>> {
         let (n, doubled) = (planes.len(), self.doubled(planes.len())?);
         let sums = (0..n).filter_map(|i| Some(planes[i].fixed? + planes[n - 1 - i].fixed?));
         if sums.into_iter().any(|sum| sum != doubled) {
@@ -61,7 +61,7 @@ impl Mirror {
 
     /// Makes one of each two levels that mirror each other the image of the other, of the one that is `held` if only
     /// one is.
-    pub fn reflect(&self, levels: &mut [i64], held: impl Fn(u32) -> bool) {
+    pub(crate) fn reflect(&self, levels: &mut [i64], held: impl Fn(u32) -> bool) {
         let doubled = self.doubled(usize::from(!self.centred.is_empty())).unwrap_or(0);
         for (l, &image) in (0..).zip(&self.image).filter(|(l, i)| l < *i) {
             let (from, to) = if held(image) && !held(l) { (image, l) } else { (l, image) };
@@ -71,7 +71,7 @@ impl Mirror {
     }
 
     /// Moves mirrored levels half way to their images.
-    pub fn average(&self, placement: &mut [f64]) {
+    pub(crate) fn average(&self, placement: &mut [f64]) {
         let own = || (0..).zip(&self.image).filter(|(l, i)| l != *i).map(|(l, &i): (u32, &u32)| (l, i));
         // What mirrors itself is on the plane; where nothing does, the mean of all is.
         let size = own().map(|(l, i)| (placement[l as usize] - placement[i as usize]).abs()).fold(0.0, f64::max);

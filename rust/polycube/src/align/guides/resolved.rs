@@ -11,7 +11,7 @@ use crate::error::{Error, ErrorKind, Place, Result};
 use crate::structure::{Placement, Structure};
 
 /// What guides ask of the levels of a structure at one scale.
-pub struct Guided {
+pub(crate) struct Guided {
     axis_of: Vec<usize>,
     /// Levels that must be equal.
     classes: Classes,
@@ -36,7 +36,7 @@ fn partners(classes: &Classes, levels: usize) -> Vec<Vec<u32>> {
 
 impl Guided {
     /// No guides.
-    pub fn free(structure: &Structure) -> Self {
+    pub(crate) fn free(structure: &Structure) -> Self {
         let levels = structure.levels.len();
         Self {
             axis_of: structure.levels.iter().map(|l| l.axis).collect(),
@@ -56,7 +56,7 @@ impl Guided {
     /// [`ErrorKind::Option`] for a facet that does not exist, for facets of different axes, and where guides contradict
     /// each other or the edges of the polycube. [`ErrorKind::Infeasible`] where facets that mirror each other do not
     /// once they are rounded.
-    pub fn new(structure: &Structure, input: &[f64], guides: &Guides, scale: f64) -> Result<Self> {
+    pub(crate) fn new(structure: &Structure, input: &[f64], guides: &Guides, scale: f64) -> Result<Self> {
         debug_assert!(guides.fixed_faces.is_empty() && guides.fixed_labels.is_empty(), "see `Guides::by_facets`");
         Self::conditions(structure, input, guides, scale).map_err(|e| e.in_option("guides"))
     }
@@ -81,32 +81,32 @@ impl Guided {
     }
 
     /// Whether nothing is asked for.
-    pub fn is_free(&self) -> bool {
+    pub(crate) fn is_free(&self) -> bool {
         !self.any
     }
 
     /// The levels that must be equal, as classes.
-    pub fn classes(&self) -> &Classes {
+    pub(crate) fn classes(&self) -> &Classes {
         &self.classes
     }
 
     /// Pairs of levels that must differ.
-    pub fn apart(&self) -> &[[u32; 2]] {
+    pub(crate) fn apart(&self) -> &[[u32; 2]] {
         &self.apart
     }
 
     /// The lattice coordinates at which the levels must lie.
-    pub fn fixed(&self) -> impl Iterator<Item = (u32, i64)> + '_ {
+    pub(crate) fn fixed(&self) -> impl Iterator<Item = (u32, i64)> + '_ {
         (0..).zip(&self.fixed).filter_map(|(l, at)| at.map(|at| (l, at)))
     }
 
     /// Whether an order respects all guides and leaves room for its planes between those that are fixed.
-    pub fn allows(&self, ranks: &Ranks) -> bool {
+    pub(crate) fn allows(&self, ranks: &Ranks) -> bool {
         !self.any || self.missing(ranks) == 0
     }
 
     /// By how many planes, about, an order misses what is asked for; 0 if it misses nothing.
-    pub fn missing(&self, ranks: &Ranks) -> usize {
+    pub(crate) fn missing(&self, ranks: &Ranks) -> usize {
         let rank = |l: u32| usize::from(ranks.of_level[l as usize]);
         let unequal =
             (0..ranks.of_level.len() as u32).map(|l| rank(l).abs_diff(rank(self.classes.of(l)))).sum::<usize>();
@@ -132,7 +132,7 @@ impl Guided {
     }
 
     /// Fixes planes that hold fixed levels; `false` if one holds two that are fixed at different places.
-    pub fn pin(&self, ranks: &Ranks, axis: usize, planes: &mut [Plane]) -> bool {
+    pub(crate) fn pin(&self, ranks: &Ranks, axis: usize, planes: &mut [Plane]) -> bool {
         let own = self.fixed().filter(|(l, _)| self.axis_of[*l as usize] == axis);
         own.fold(true, |fits, (l, at)| {
             let plane = &mut planes[usize::from(ranks.of_level[l as usize]) - 1];
@@ -142,7 +142,7 @@ impl Guided {
 
     /// The lattice coordinates of the planes along an axis nearest to their targets, mirrored where that is asked for;
     /// nothing if there is no room between fixed ones.
-    pub fn place(&self, axis: usize, planes: &[Plane]) -> Option<Vec<i64>> {
+    pub(crate) fn place(&self, axis: usize, planes: &[Plane]) -> Option<Vec<i64>> {
         match &self.mirrors[axis] {
             None => chain(planes, None),
             Some(mirror) => mirror.place(planes),
@@ -150,7 +150,7 @@ impl Guided {
     }
 
     /// Distances that keep apart what must differ, and fixed levels as they lie to each other, as seen in `placement`.
-    pub fn differences(&self, placement: &[f64]) -> Vec<Difference> {
+    pub(crate) fn differences(&self, placement: &[f64]) -> Vec<Difference> {
         let at = |l: u32| placement[l as usize];
         let apart = self.apart.iter().map(|&[a, b]| if at(a) < at(b) { (a, b) } else { (b, a) });
         let mut found: Vec<Difference> = apart.map(|(low, high)| Difference { low, high, gap: 1 }).collect();
@@ -167,7 +167,7 @@ impl Guided {
     }
 
     /// `placement` with levels that must be equal at their mean, and mirrored levels moved half way to their images.
-    pub fn averaged(&self, structure: &Structure, placement: &[f64]) -> Placement {
+    pub(crate) fn averaged(&self, structure: &Structure, placement: &[f64]) -> Placement {
         let mut sums = vec![(0.0, 0.0); placement.len()];
         for (l, (level, x)) in (0..).zip(structure.levels.iter().zip(placement)) {
             let sum: &mut (f64, f64) = &mut sums[self.classes.of(l) as usize];
@@ -187,7 +187,7 @@ impl Guided {
     ///
     /// # Errors
     /// [`ErrorKind::Infeasible`] if levels that must differ do not.
-    pub fn rounded(&self, structure: &Structure, targets: &[f64]) -> Result<Vec<i64>> {
+    pub(crate) fn rounded(&self, structure: &Structure, targets: &[f64]) -> Result<Vec<i64>> {
         let averaged = self.averaged(structure, targets);
         let mut levels: Vec<i64> = averaged.iter().map(|x| x.round() as i64).collect();
         (0..).zip(&mut levels).for_each(|(l, x)| *x = self.held(l).unwrap_or(*x));

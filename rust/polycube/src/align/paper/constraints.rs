@@ -9,7 +9,7 @@ use rayon::prelude::*;
 /// A dummy edge goes on from an end of an edge, along its line, to the closest facet there; the dummy vertex
 /// where it meets that facet stays between the facet's sides around it. All as seen in the present arrangement.
 /// O(n log n) for n edges where few facets lie along a line.
-pub fn structural(arrangement: &Arrangement) -> Vec<Difference> {
+pub(super) fn structural(arrangement: &Arrangement) -> Vec<Difference> {
     let edges = &arrangement.structure().edges;
     let mut differences: Vec<Difference> = edges.iter().map(|e| length(arrangement, e)).collect();
     let dummies =

@@ -3,16 +3,16 @@
 mod constraints;
 #[cfg(test)]
 mod for_bench;
-pub mod neighbours;
+pub(crate) mod neighbours;
 mod pairs;
 mod restart;
 
-pub use restart::{descend, simplify};
+pub(crate) use restart::{descend, simplify};
 
 use super::classes::Classes;
 use super::guides::Guided;
 use super::problem::{Difference, Linear, Problem};
-pub use super::relax::Pair;
+pub(super) use super::relax::Pair;
 use super::relax::{Demand, relax};
 use super::solve::Solver;
 use crate::align::to_integers;
@@ -34,7 +34,7 @@ pub struct Round {
     pub alignments: usize,
     /// Counts after the round.
     pub counts: Counts,
-    /// Where the levels lie after the round, on the lattice of the rounds; [`rescale`](super::rescale) brings them to
+    /// Where the levels lie after the round, on the lattice of the rounds; `rescale` brings them to
     /// the scale of a result. Not written to reports.
     #[serde(skip)]
     pub levels: Vec<i64>,
@@ -56,7 +56,7 @@ impl Step {
 }
 
 /// Where Algorithm 1 ended.
-pub struct Outcome<'a> {
+pub(super) struct Outcome<'a> {
     structure: &'a Structure,
     /// A valid placement, integer after the first round.
     pub placement: Placement,
@@ -70,7 +70,7 @@ pub struct Outcome<'a> {
 
 impl<'a> Outcome<'a> {
     /// A valid placement with the alignments that it has: levels of one axis with one coordinate.
-    pub fn of(structure: &'a Structure, placement: &[f64]) -> Self {
+    pub(super) fn of(structure: &'a Structure, placement: &[f64]) -> Self {
         let mut classes = Classes::new(placement.len());
         let levels = structure.levels.len() as u32;
         for (a, b) in (0..levels).flat_map(|b| (0..b).map(move |a| (a, b))) {
@@ -84,7 +84,7 @@ impl<'a> Outcome<'a> {
     }
 
     /// The finalisation of section 6: as near to `targets` as the alignments found allow, with λ = 1.
-    pub fn settle(&self, targets: &[f64], solver: &dyn Solver, context: &Context) -> Result<Placement> {
+    pub(super) fn settle(&self, targets: &[f64], solver: &dyn Solver, context: &Context) -> Result<Placement> {
         let differences = self.structural.clone();
         let demand =
             Demand { targets, classes: &self.classes, pairs: &[], halvings: 0, differences, planes: Vec::new() };
@@ -93,7 +93,7 @@ impl<'a> Outcome<'a> {
 }
 
 /// How Algorithm 1 runs.
-pub struct PaperSettings<'a> {
+pub(super) struct PaperSettings<'a> {
     /// Stop before λ falls below this; 0 for the natural end.
     pub lambda_min: f64,
     /// The solver of the integer problems.
@@ -106,13 +106,13 @@ pub struct PaperSettings<'a> {
 }
 
 /// Aligns the corners of a valid placement, given in lattice steps.
-pub fn run<'a>(
+pub(super) fn run<'a>(
     structure: &'a Structure,
     input: &[f64],
     settings: &PaperSettings,
     context: &Context,
 ) -> Result<Outcome<'a>> {
-    let mut state = State::new(structure, input, settings);
+    let mut state = Run::new(structure, input, settings);
     for halvings in 0..=Problem::MAX_HALVINGS {
         let lambda = 0.5_f64.powi(halvings as i32);
         context.tick(f64::from(halvings) / f64::from(Problem::MAX_HALVINGS))?;
@@ -134,7 +134,7 @@ struct Plan {
     planes: Vec<Linear>,
 }
 
-struct State<'a, 's> {
+struct Run<'a, 's> {
     structure: &'a Structure,
     input: &'s [f64],
     settings: &'s PaperSettings<'s>,
@@ -147,7 +147,7 @@ struct State<'a, 's> {
     plan: Option<Plan>,
 }
 
-impl<'a, 's> State<'a, 's> {
+impl<'a, 's> Run<'a, 's> {
     fn new(structure: &'a Structure, input: &'s [f64], settings: &'s PaperSettings<'s>) -> Self {
         let classes = settings.guided.classes().clone();
         let linked = Linked::new(structure);

@@ -10,11 +10,11 @@ use crate::structure::{Arrangement, Structure};
 use rayon::prelude::*;
 
 /// For every corner those that no pair joins it with: (a) the other ends of its edges, (b) the other ends of theirs.
-pub struct Linked(Vec<Vec<u32>>);
+pub(super) struct Linked(Vec<Vec<u32>>);
 
 impl Linked {
     /// The links of the corners of `structure`.
-    pub fn new(structure: &Structure) -> Self {
+    pub(super) fn new(structure: &Structure) -> Self {
         let mut beside = vec![Vec::new(); structure.corners.len()];
         for [a, b] in structure.edges.iter().map(|e| e.corners) {
             beside[a as usize].push(b);
@@ -30,7 +30,7 @@ impl Linked {
 }
 
 /// Corners with adjacent Voronoi cells that are not `linked`.
-pub fn near_corners(
+pub(super) fn near_corners(
     structure: &Structure,
     placement: &[f64],
     linked: &Linked,
@@ -47,7 +47,7 @@ pub fn near_corners(
 /// Along an axis a pair can align if its levels are not aligned yet, if another axis is left to keep the corners apart,
 /// if `differences` do not force them apart, and if (c) its middle lies inside the polycube. The last two take longest
 /// and are asked only of pairs that are nearer than what is known.
-pub fn candidates(
+pub(super) fn candidates(
     arrangement: &Arrangement,
     near: &[[u32; 2]],
     classes: &Classes,

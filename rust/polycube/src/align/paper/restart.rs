@@ -18,7 +18,7 @@ use rayon::prelude::*;
 ///
 /// # Errors
 /// [`ErrorKind::Infeasible`](crate::ErrorKind::Infeasible) if what the guides ask for has more blocks than the input.
-pub fn simplify(task: &Task, context: &Context) -> Result<Alignment> {
+pub(crate) fn simplify(task: &Task, context: &Context) -> Result<Alignment> {
     // On a worker of the pool, so that what is done side by side in each round starts without waking it.
     let descent = rayon::scope(|_| descend(task, &task.targets, &task.guided, context));
     let Descent { levels, after, rounds } = descent?;
@@ -36,7 +36,7 @@ pub fn simplify(task: &Task, context: &Context) -> Result<Alignment> {
 }
 
 /// Where repeated runs of Algorithm 1 end.
-pub struct Descent {
+pub(crate) struct Descent {
     /// The lattice coordinate of every level.
     pub levels: Vec<i64>,
     /// The counts there.
@@ -46,7 +46,7 @@ pub struct Descent {
 }
 
 /// Runs of Algorithm 1, each from where the last ended, placed near `targets` as `placing` has it.
-pub fn descend(task: &Task, targets: &[f64], placing: &Guided, context: &Context) -> Result<Descent> {
+pub(crate) fn descend(task: &Task, targets: &[f64], placing: &Guided, context: &Context) -> Result<Descent> {
     let structure = task.structure;
     let solver = task.options.solver.solver();
     let oblique_planes = task.options.solver == SolverKind::Linear;

@@ -28,12 +28,12 @@ struct Sketch<'a> {
 }
 
 impl Bound {
-    pub fn new(structure: &Structure) -> Self {
+    pub(super) fn new(structure: &Structure) -> Self {
         Self { outlines: (0..structure.facets.len() as u32).map(|f| Outline::new(structure, f)).collect() }
     }
 
     /// For every pair of levels the number of facets whose outline depends on their order.
-    pub fn weights(&self, pairs: &Pairs) -> Vec<u32> {
+    pub(super) fn weights(&self, pairs: &Pairs) -> Vec<u32> {
         let mut weights = vec![0; pairs.len()];
         for levels in self.outlines.iter().flat_map(|o| &o.levels) {
             for &a in levels {
@@ -45,7 +45,7 @@ impl Bound {
 
     /// The least counts over all completions of `relations`. O(Σ (s + l) (s + g)) for facets with s sides, l
     /// lines and g gaps.
-    pub fn least(&self, rules: &Rules, relations: &Relations) -> Least {
+    pub(super) fn least(&self, rules: &Rules, relations: &Relations) -> Least {
         let known = Known { pairs: &rules.pairs, relations };
         let lines = self.lines(known);
         let grids = self.outlines.iter().zip(&lines).map(|(o, l)| Grid::new(known, o, l)).collect();

@@ -50,7 +50,7 @@ impl<'a> Rules<'a> {
     ///
     /// O(e² + n³) for e edges and n levels of an axis, in memory for n² pairs; a contradiction when the structure has
     /// no embedding at all.
-    pub fn new(structure: &'a Structure) -> Result<(Self, Relations), Contradiction> {
+    pub(super) fn new(structure: &'a Structure) -> Result<(Self, Relations), Contradiction> {
         let pairs = Pairs::new(structure);
         let mut relations = Relations::new(&pairs);
         let watched = vec![Vec::new(); pairs.len()];
@@ -68,7 +68,7 @@ impl<'a> Rules<'a> {
     }
 
     /// Adds conditions that hold and all that follows.
-    pub fn restrict(&self, relations: &mut Relations, conditions: &[Condition]) -> Result<(), Contradiction> {
+    pub(super) fn restrict(&self, relations: &mut Relations, conditions: &[Condition]) -> Result<(), Contradiction> {
         let mut closing = Closing { rules: self, relations, changed: Vec::new() };
         conditions.iter().try_for_each(|c| closing.demand(c))?;
         closing.run()
@@ -81,7 +81,7 @@ impl<'a> Rules<'a> {
     }
 
     /// The clauses not yet satisfied in which two levels occur.
-    pub fn open_clauses(&self, relations: &Relations, a: u32, b: u32) -> usize {
+    pub(super) fn open_clauses(&self, relations: &Relations, a: u32, b: u32) -> usize {
         let watching = &self.watched[self.pairs.cell(a.min(b), a.max(b))];
         watching.iter().filter(|c| !self.is_satisfied(relations, &self.clauses[**c as usize])).count()
     }

@@ -14,12 +14,12 @@ pub(super) struct Known<'a> {
 
 impl Known<'_> {
     /// What `a` can be to `b`.
-    pub fn get(&self, a: u32, b: u32) -> u8 {
+    pub(super) fn get(&self, a: u32, b: u32) -> u8 {
         self.relations.get(self.pairs, a, b)
     }
 
     /// Whether `a` lies below `b` in every completion.
-    pub fn below(&self, a: u32, b: u32) -> bool {
+    pub(super) fn below(&self, a: u32, b: u32) -> bool {
         self.relations.below(self.pairs, a, b)
     }
 }
@@ -35,7 +35,7 @@ pub(super) struct Classes {
 
 impl Classes {
     /// The finest classes that are in order whatever the completion. O(n²) for n levels.
-    pub fn new(known: Known, levels: &[u32]) -> Self {
+    pub(super) fn new(known: Known, levels: &[u32]) -> Self {
         let mut sorted: Vec<(usize, u32)> =
             levels.iter().map(|&b| (levels.iter().filter(|&&a| known.below(a, b)).count(), b)).collect();
         sorted.sort_unstable();
@@ -59,28 +59,28 @@ impl Classes {
     }
 
     /// The number of classes.
-    pub fn len(&self) -> usize {
+    pub(super) fn len(&self) -> usize {
         self.starts.len()
     }
 
     /// The number of gaps.
-    pub fn gaps(&self) -> usize {
+    pub(super) fn gaps(&self) -> usize {
         self.len().saturating_sub(1)
     }
 
     /// The levels of a class.
-    pub fn class(&self, c: usize) -> &[u32] {
+    pub(super) fn class(&self, c: usize) -> &[u32] {
         let end = self.starts.get(c + 1).copied().unwrap_or(self.levels.len());
         &self.levels[self.starts[c]..end]
     }
 
     /// Whether all levels of a class surely coincide.
-    pub fn is_flat(&self, c: usize) -> bool {
+    pub(super) fn is_flat(&self, c: usize) -> bool {
         self.flat[c]
     }
 
     /// The class of a level.
-    pub fn of(&self, level: u32) -> Option<usize> {
+    pub(super) fn of(&self, level: u32) -> Option<usize> {
         let place = self.levels.iter().position(|&l| l == level)?;
         Some(self.starts.partition_point(|&s| s <= place) - 1)
     }
@@ -128,7 +128,7 @@ pub(super) struct Grid {
 
 impl Grid {
     /// The grid of a facet cut by `lines`.
-    pub fn new(known: Known, outline: &Outline, lines: &[Line]) -> Self {
+    pub(super) fn new(known: Known, outline: &Outline, lines: &[Line]) -> Self {
         let mut levels = outline.levels.clone();
         for line in lines {
             let own = &mut levels[1 - line.along];
@@ -145,7 +145,7 @@ impl Grid {
     }
 
     /// The numbers of gaps.
-    pub fn size(&self) -> [usize; 2] {
+    pub(super) fn size(&self) -> [usize; 2] {
         [0, 1].map(|a| self.classes[a].gaps())
     }
 
@@ -154,18 +154,18 @@ impl Grid {
     }
 
     /// Whether a cell lies in the facet.
-    pub fn is_inside(&self, at: [usize; 2]) -> bool {
+    pub(super) fn is_inside(&self, at: [usize; 2]) -> bool {
         let size = self.size();
         at[0] < size[0] && at[1] < size[1] && self.inside[self.cell(at)]
     }
 
     /// Whether a line surely runs between a cell and the one before it along `axis`.
-    pub fn is_cut(&self, axis: usize, at: [usize; 2]) -> bool {
+    pub(super) fn is_cut(&self, axis: usize, at: [usize; 2]) -> bool {
         self.cut[axis][self.cell(at)]
     }
 
     /// Whether a face of the layout has this as its lowest cell, in every completion.
-    pub fn is_start(&self, at: [usize; 2]) -> bool {
+    pub(super) fn is_start(&self, at: [usize; 2]) -> bool {
         let parted = |axis: usize| {
             let mut before = at;
             before[axis] = before[axis].wrapping_sub(1);
@@ -176,7 +176,7 @@ impl Grid {
 
     /// The side that bounds the facet in class `class` of `axis` along the gap `gap` of the other axis, if that
     /// class is flat.
-    pub fn border<'o>(&self, outline: &'o Outline, axis: usize, class: usize, gap: usize) -> Option<&'o Border> {
+    pub(super) fn border<'o>(&self, outline: &'o Outline, axis: usize, class: usize, gap: usize) -> Option<&'o Border> {
         let lies_there = |b: &&Border| {
             let range = b.ends.map(|e| self.classes[1 - axis].of(e));
             b.along != axis

@@ -52,7 +52,7 @@ pub(super) struct Outline {
 }
 
 impl Outline {
-    pub fn new(structure: &Structure, number: u32) -> Self {
+    pub(super) fn new(structure: &Structure, number: u32) -> Self {
         let facet = &structure.facets[number as usize];
         let normal = facet.label.axis();
         let axes = [normal, (normal + 1) % 3, (normal + 2) % 3];
@@ -76,12 +76,12 @@ impl Outline {
     }
 
     /// The facet's side on an edge.
-    pub fn border(&self, edge: u32) -> Option<&Border> {
+    pub(super) fn border(&self, edge: u32) -> Option<&Border> {
         self.borders.iter().find(|b| b.edge == edge)
     }
 
     /// The line that goes on into this facet when one at level `at` crosses its side `border`.
-    pub fn entering(border: &Border, at: u32) -> Line {
+    pub(super) fn entering(border: &Border, at: u32) -> Line {
         Line { along: 1 - border.along, at, from: border.at, upward: border.inside_above }
     }
 }

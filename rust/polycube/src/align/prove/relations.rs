@@ -24,7 +24,7 @@ pub(super) struct Pairs {
 }
 
 impl Pairs {
-    pub fn new(structure: &Structure) -> Self {
+    pub(super) fn new(structure: &Structure) -> Self {
         let axis: Vec<usize> = structure.levels.iter().map(|l| l.axis).collect();
         let of_axis: [Vec<u32>; 3] =
             std::array::from_fn(|a| (0..axis.len() as u32).filter(|&l| axis[l as usize] == a).collect());
@@ -40,17 +40,17 @@ impl Pairs {
     }
 
     /// How many ordered pairs there are.
-    pub fn len(&self) -> usize {
+    pub(super) fn len(&self) -> usize {
         self.len
     }
 
     /// Where the pair of two levels of one axis is kept.
-    pub fn cell(&self, a: u32, b: u32) -> usize {
+    pub(super) fn cell(&self, a: u32, b: u32) -> usize {
         (self.row[a as usize] + self.column[b as usize]) as usize
     }
 
     /// The levels on the axis of `level`.
-    pub fn along(&self, level: u32) -> &[u32] {
+    pub(super) fn along(&self, level: u32) -> &[u32] {
         &self.of_axis[self.axis[level as usize]]
     }
 }
@@ -61,7 +61,7 @@ pub(super) struct Relations(Vec<u8>);
 
 impl Relations {
     /// Nothing is known but that a level equals itself.
-    pub fn new(pairs: &Pairs) -> Self {
+    pub(super) fn new(pairs: &Pairs) -> Self {
         let mut relations = Self(vec![ANY; pairs.len()]);
         for &level in pairs.of_axis.iter().flatten() {
             relations.0[pairs.cell(level, level)] = EQUAL;
@@ -70,17 +70,17 @@ impl Relations {
     }
 
     /// What `a` can be to `b`, two levels of one axis.
-    pub fn get(&self, pairs: &Pairs, a: u32, b: u32) -> u8 {
+    pub(super) fn get(&self, pairs: &Pairs, a: u32, b: u32) -> u8 {
         self.0[pairs.cell(a, b)]
     }
 
     /// Whether `a` lies below `b` in every completion.
-    pub fn below(&self, pairs: &Pairs, a: u32, b: u32) -> bool {
+    pub(super) fn below(&self, pairs: &Pairs, a: u32, b: u32) -> bool {
         self.get(pairs, a, b) == BELOW
     }
 
     /// Keeps only the relations in `mask`; whether that changed anything.
-    pub fn keep(&mut self, pairs: &Pairs, a: u32, b: u32, mask: u8) -> bool {
+    pub(super) fn keep(&mut self, pairs: &Pairs, a: u32, b: u32, mask: u8) -> bool {
         let cell = pairs.cell(a, b);
         let kept = self.0[cell] & mask;
         let changed = kept != self.0[cell];
@@ -90,7 +90,7 @@ impl Relations {
     }
 
     /// The number of bytes that it fills.
-    pub fn size(&self) -> usize {
+    pub(super) fn size(&self) -> usize {
         self.0.len()
     }
 }

@@ -59,7 +59,7 @@ pub(super) struct Tree<'a> {
 }
 
 impl<'a> Tree<'a> {
-    pub fn new(
+    pub(super) fn new(
         rules: Rules<'a>,
         bound: Bound,
         objective: Objective,
@@ -73,7 +73,7 @@ impl<'a> Tree<'a> {
     }
 
     /// Searches from `root` until nothing better is possible or a limit is reached.
-    pub fn run(mut self, root: Relations, limits: &Limits, context: &Context) -> Result<Proof> {
+    pub(super) fn run(mut self, root: Relations, limits: &Limits, context: &Context) -> Result<Proof> {
         let start = Instant::now();
         let most_open = MEMORY / (root.size() + 1);
         if let Some(child) = self.assess(root, 0) {

@@ -13,7 +13,7 @@ use crate::structure::Structure;
 use std::time::Instant;
 
 /// What is searched, the same for every chain.
-pub struct Landscape<'a> {
+pub(super) struct Landscape<'a> {
     /// The structure.
     pub structure: &'a Structure,
     /// Its moves.
@@ -40,18 +40,18 @@ impl<'a> Landscape<'a> {
     const WORK: usize = 100_000_000;
 
     /// A walker; its work space is made once.
-    pub fn chain(&'a self) -> Result<Chain<'a>> {
+    pub(super) fn chain(&'a self) -> Result<Chain<'a>> {
         let most = || Error::new(ErrorKind::Internal, "too many levels to search");
         Ok(Chain { landscape: self, rows: counter(self.structure).ok_or_else(most)?, corners: self.corners() })
     }
 
     /// Whether it is time to stop.
-    pub fn is_late(&self) -> bool {
+    pub(super) fn is_late(&self) -> bool {
         self.deadline.is_some_and(|d| Instant::now() >= d)
     }
 
     /// So many of `counts` that the work stays in bounds.
-    pub fn affordable(&self, counts: u32) -> u32 {
+    pub(super) fn affordable(&self, counts: u32) -> u32 {
         let words = counter(self.structure).map_or(1, |rows| rows.words()).max(1);
         counts.min((Self::WORK / words) as u32)
     }
@@ -63,7 +63,7 @@ impl<'a> Landscape<'a> {
 
 /// One run of annealing.
 #[derive(Clone, Copy)]
-pub struct Schedule {
+pub(super) struct Schedule {
     /// Seed of the random numbers.
     pub seed: u64,
     /// Number of moves tried.
@@ -81,7 +81,7 @@ pub struct Schedule {
 }
 
 /// A walker on a landscape.
-pub struct Chain<'a> {
+pub(super) struct Chain<'a> {
     landscape: &'a Landscape<'a>,
     rows: Box<dyn Counter>,
     corners: f64,
@@ -89,14 +89,14 @@ pub struct Chain<'a> {
 
 impl Chain<'_> {
     /// Judges an order; nothing if it is no valid polycube.
-    pub fn state(&mut self, ranks: Ranks) -> Option<State> {
+    pub(super) fn state(&mut self, ranks: Ranks) -> Option<State> {
         let count = self.count(&ranks)?;
         let shape = std::array::from_fn(|axis| self.shape(&ranks, axis));
         Some(State { ranks, count, shape })
     }
 
     /// What the objective counts in an order; nothing if it is no valid polycube or the guides do not allow it.
-    pub fn count(&mut self, ranks: &Ranks) -> Option<usize> {
+    pub(super) fn count(&mut self, ranks: &Ranks) -> Option<usize> {
         if !self.landscape.guided.allows(ranks) {
             return None;
         }
@@ -109,13 +109,19 @@ impl Chain<'_> {
     }
 
     /// The count, raised by the displacement.
-    pub fn energy(&self, state: &State, weight: f64) -> f64 {
+    pub(super) fn energy(&self, state: &State, weight: f64) -> f64 {
         let displacement = (state.shape_cost() / self.corners).sqrt() / self.landscape.unit;
         state.count as f64 * (1.0 + weight * displacement)
     }
 
     /// Walks from `start`, leaving every accepted state in `front`.
-    pub fn walk(&mut self, start: State, schedule: &Schedule, front: &mut Front, context: &Context) -> Result<()> {
+    pub(super) fn walk(
+        &mut self,
+        start: State,
+        schedule: &Schedule,
+        front: &mut Front,
+        context: &Context,
+    ) -> Result<()> {
         let mut random = SplitMix64::new(schedule.seed);
         let mut now = start;
         let mut energy = self.energy(&now, schedule.weight);

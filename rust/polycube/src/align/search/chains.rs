@@ -33,7 +33,7 @@ const SHORTER: u32 = 3;
 const NEAR: Schedule = Schedule { weight: 0.3, ..WARM };
 
 /// Walks all chains and leaves what they see in `front`, which must hold where they begin.
-pub fn walk(
+pub(super) fn walk(
     landscape: &Landscape,
     begin: &[State; 2],
     effort: &Effort,
@@ -61,7 +61,7 @@ pub fn walk(
 
 /// Makes the front denser: chains that may move corners seven tenths as far as the coarsest state does, less far, and
 /// so on, each from the coarsest state that keeps its bound.
-pub fn fill(landscape: &Landscape, effort: &Effort, front: &mut Front, context: &Context) -> Result<()> {
+pub(super) fn fill(landscape: &Landscape, effort: &Effort, front: &mut Front, context: &Context) -> Result<()> {
     let Some(farthest) = front.states().next().map(State::shape_cost) else { return Ok(()) };
     let steps = effort.steps_per_level / SHORTER;
     let steps = landscape.affordable(steps.saturating_mul(landscape.structure.levels.len() as u32));

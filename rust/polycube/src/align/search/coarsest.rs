@@ -18,7 +18,7 @@ use crate::layout::Counts;
 use crate::structure::placement_of;
 
 /// Algorithm 1, then the search.
-pub fn coarsest(task: &Task, context: &Context) -> Result<Alignment> {
+pub(crate) fn coarsest(task: &Task, context: &Context) -> Result<Alignment> {
     let aligning = context.stage("align", 0.0, 0.2);
     if !is_searchable(task.structure) {
         return simplify(task, &aligning);
@@ -128,7 +128,7 @@ fn choose(task: &Task, front: &[TradeOff], context: &Context) -> Result<(usize, 
 }
 
 /// The levels of a trade-off: its alignments as near to the input as they can be, on the lattice that is asked for.
-pub fn place_trade_off(task: &Task, point: &TradeOff, context: &Context) -> Result<Vec<i64>> {
+pub(crate) fn place_trade_off(task: &Task, point: &TradeOff, context: &Context) -> Result<Vec<i64>> {
     let structure = task.structure;
     let ranks = point.ranks(structure);
     let place = |order: &Ranks| place_in_order(structure, order, &task.targets, &task.guided);

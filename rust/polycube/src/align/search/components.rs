@@ -21,7 +21,7 @@ use crate::error::Result;
 use crate::structure::{Corner, Edge, Facet, Side, Structure};
 
 /// A part of a structure with a structure of its own.
-pub struct Component {
+pub(super) struct Component {
     /// The structure of this part.
     pub structure: Structure,
     /// The level of the whole that each of its levels is.
@@ -31,7 +31,7 @@ pub struct Component {
 type Extent = ([f64; 3], [f64; 3]);
 
 /// The parts of a structure whose boxes are pairwise separate in `placement`; one if there is nothing to tell apart.
-pub fn split(structure: &Structure, placement: &[f64]) -> Vec<Component> {
+pub(super) fn split(structure: &Structure, placement: &[f64]) -> Vec<Component> {
     let component = structure.components();
     let count = component.iter().max().map_or(0, |c| *c as usize + 1);
     let mut group: Vec<usize> = (0..count).collect();
@@ -108,12 +108,12 @@ impl Component {
     }
 
     /// What belongs to this part of something that each level of the whole has.
-    pub fn of<T: Copy>(&self, whole: &[T]) -> Vec<T> {
+    pub(super) fn of<T: Copy>(&self, whole: &[T]) -> Vec<T> {
         self.levels.iter().map(|&l| whole[l as usize]).collect()
     }
 
     /// The task of this part alone.
-    pub fn task<'a>(&'a self, whole: &Task<'a>, input: &'a [f64]) -> Task<'a> {
+    pub(super) fn task<'a>(&'a self, whole: &Task<'a>, input: &'a [f64]) -> Task<'a> {
         Task {
             structure: &self.structure,
             input,
@@ -136,7 +136,7 @@ fn ascending(items: impl Iterator<Item = u32>) -> Vec<u32> {
 
 /// Trade-offs of the whole from those of its parts: from the coarsest of all on, in each step the part gives way that
 /// saves most displacement for a block. What does not fit together is left out.
-pub fn combine(
+pub(super) fn combine(
     task: &Task,
     parts: &[Component],
     found: &[SearchResult],

@@ -7,15 +7,15 @@ use crate::context::Context;
 use crate::error::Result;
 
 /// What a merge is worth: from one state to another, positive if it shall be done at all.
-pub type Worth = fn(&State, &State) -> f64;
+pub(super) type Worth = fn(&State, &State) -> f64;
 
 /// How much less is counted.
-pub fn saved(from: &State, to: &State) -> f64 {
+pub(super) fn saved(from: &State, to: &State) -> f64 {
     from.count as f64 - to.count as f64
 }
 
 /// How much less is counted for what it costs in displacement.
-pub fn saved_per_cost(from: &State, to: &State) -> f64 {
+pub(super) fn saved_per_cost(from: &State, to: &State) -> f64 {
     let cost = (to.shape_cost() - from.shape_cost()).max(0.0);
     saved(from, to) / cost.max(f64::MIN_POSITIVE)
 }
@@ -26,7 +26,7 @@ pub fn saved_per_cost(from: &State, to: &State) -> f64 {
 /// Savings are looked up again only for the pairs that promise most: those that were worth most when last counted.
 /// O(n²) counts for n levels, and a few for every merge; of so many levels that these are too many, only the nearest
 /// pairs.
-pub fn merge(
+pub(super) fn merge(
     landscape: &Landscape,
     chain: &mut Chain,
     start: State,

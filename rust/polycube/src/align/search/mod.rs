@@ -9,8 +9,8 @@ mod greedy;
 mod moves;
 mod state;
 
-pub use coarsest::{coarsest, place_trade_off};
-pub use moves::Moves;
+pub(crate) use coarsest::{coarsest, place_trade_off};
+pub(crate) use moves::Moves;
 
 use super::Task;
 use super::effort::Effort;
@@ -28,7 +28,7 @@ use state::State;
 use std::time::Instant;
 
 /// The trade-offs met on the way.
-pub struct SearchResult {
+pub(super) struct SearchResult {
     /// Orders between the coarsest and the input.
     pub front: Front,
     /// What is known of the least count.
@@ -36,7 +36,7 @@ pub struct SearchResult {
 }
 
 /// Whether [`search`] can handle a structure: it needs 1022 levels or fewer on one axis.
-pub fn is_searchable(structure: &Structure) -> bool {
+pub(super) fn is_searchable(structure: &Structure) -> bool {
     (0..3).any(|axis| structure.levels.iter().filter(|l| l.axis == axis).count() <= MOST_LEVELS)
 }
 
@@ -48,7 +48,7 @@ const FIXED: f64 = 1e4;
 ///
 /// The result counts no more than either, and than greedy merging from the input. The start of the task stands for the
 /// input where guides do not allow the input itself.
-pub fn search(task: &Task, paper: &[f64], context: &Context) -> Result<SearchResult> {
+pub(super) fn search(task: &Task, paper: &[f64], context: &Context) -> Result<SearchResult> {
     let parts = if task.guided.is_free() { components::split(task.structure, &task.start) } else { Vec::new() };
     if parts.len() < 2 { search_whole(task, paper, context) } else { search_parts(task, paper, &parts, context) }
 }

@@ -11,7 +11,7 @@ const BETWEEN: i32 = 64;
 const REACH: u64 = 3;
 
 /// The neighbourhood of orders: which levels an edge keeps below which, and which move as one.
-pub struct Moves {
+pub(crate) struct Moves {
     axis_of: Vec<usize>,
     by_axis: [Vec<u32>; 3],
     below: Vec<Vec<u32>>,
@@ -26,7 +26,7 @@ pub struct Moves {
 
 impl Moves {
     /// The moves of a structure that keep together, and mirrored, what guides want so.
-    pub fn new(structure: &Structure, guided: &Guided, symmetries: Vec<(usize, Vec<u32>)>) -> Self {
+    pub(crate) fn new(structure: &Structure, guided: &Guided, symmetries: Vec<(usize, Vec<u32>)>) -> Self {
         let mut below = vec![Vec::new(); structure.levels.len()];
         let mut above = below.clone();
         for edge in &structure.edges {
@@ -58,7 +58,7 @@ impl Moves {
     /// or between two; half of these push the levels ahead of it that an edge keeps there. If `paired`, every other
     /// change is one of two levels at once. Where the input is symmetric, half of the changes are made on the mirrored
     /// levels, too.
-    pub fn draw(&self, from: &Ranks, paired: bool, random: &mut SplitMix64) -> Option<(Ranks, usize)> {
+    pub(crate) fn draw(&self, from: &Ranks, paired: bool, random: &mut SplitMix64) -> Option<(Ranks, usize)> {
         let level = random.below(self.axis_of.len() as u64) as u32;
         let axis = self.axis_of[level as usize];
         let mut keys: Vec<i32> =
@@ -117,7 +117,7 @@ impl Moves {
     }
 
     /// `from` with `level` on the plane of `onto`, if no edge forbids it.
-    pub fn align(&self, from: &Ranks, level: u32, onto: u32) -> Option<Ranks> {
+    pub(crate) fn align(&self, from: &Ranks, level: u32, onto: u32) -> Option<Ranks> {
         let axis = self.axis_of[level as usize];
         let to = from.of_level[onto as usize];
         let rank = |l: &u32| from.of_level[*l as usize];

@@ -4,7 +4,7 @@ use crate::align::ranks::Ranks;
 
 /// An order with what it counts and costs.
 #[derive(Clone, Debug, PartialEq)]
-pub struct State {
+pub(crate) struct State {
     /// The order.
     pub ranks: Ranks,
     /// What the objective counts.
@@ -15,7 +15,7 @@ pub struct State {
 
 impl State {
     /// Σ over the axes of `shape`.
-    pub fn shape_cost(&self) -> f64 {
+    pub(crate) fn shape_cost(&self) -> f64 {
         self.shape.iter().sum()
     }
 }

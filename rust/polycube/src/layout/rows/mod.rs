@@ -70,7 +70,7 @@ pub struct Rows<R> {
 }
 
 /// [`Rows`] of any width.
-pub trait Counter: Send {
+pub(crate) trait Counter: Send {
     /// See [`Rows::count`].
     fn count(&mut self, objective: Objective, ranks: &[u16], planes: [usize; 3]) -> Option<usize>;
 
@@ -103,11 +103,11 @@ impl<R: Word> Counter for Rows<R> {
 }
 
 /// The most levels that the axis with the fewest levels can have for [`counter`].
-pub const MOST_LEVELS: usize = 1022;
+pub(crate) const MOST_LEVELS: usize = 1022;
 
 /// [`Rows`] of the narrowest words that hold the structure; nothing if it has more than [`MOST_LEVELS`] levels along
 /// every axis.
-pub fn counter(structure: &Structure) -> Option<Box<dyn Counter>> {
+pub(crate) fn counter(structure: &Structure) -> Option<Box<dyn Counter>> {
     let axis = row_axis(structure);
     let levels = structure.levels.iter().filter(|l| l.axis == axis).count();
     Some(match levels {

@@ -2,9 +2,10 @@
 
 use super::Rows;
 use super::{Wide, Word};
-use crate::generate::{SplitMix64, random_polycube};
+use crate::generate::random_polycube;
 use crate::layout::{Objective, count};
 use crate::mesh::CellKind;
+use crate::rng::SplitMix64;
 use crate::structure::{Arrangement, Polycube, Structure, Tolerance};
 
 const OBJECTIVES: [Objective; 3] = [Objective::BlocksPadded, Objective::Blocks, Objective::SurfacePatches];

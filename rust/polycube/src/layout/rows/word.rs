@@ -48,7 +48,7 @@ primitive!(u64, u128);
 
 /// A word of `64 N` bits, the lowest 64 first.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct Wide<const N: usize>([u64; N]);
+pub(super) struct Wide<const N: usize>([u64; N]);
 
 impl<const N: usize> Wide<N> {
     /// Plain loops, which compilers unroll and inline where closures over arrays are called.

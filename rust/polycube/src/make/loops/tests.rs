@@ -3,8 +3,10 @@
 use super::check::check;
 use super::start::start;
 use super::*;
-use crate::generate::{Cuboid, Deformation, Example, SplitMix64, Voxels, example, random_polycube};
+use crate::generate::deform::Deformation;
+use crate::generate::{Cuboid, Example, Voxels, example, random_polycube};
 use crate::mesh::{CellKind, Mesh, Simplices};
+use crate::rng::SplitMix64;
 use proptest::prelude::*;
 
 fn triangles(mesh: &Mesh) -> Vec<[u32; 3]> {

@@ -6,9 +6,12 @@ mod keys;
 mod padding;
 mod size;
 
-pub use carrier::Carrier;
+pub(crate) use carrier::Carrier;
 pub(crate) use grid::{Grid, Rectangle};
 pub(crate) use keys::{Keys, rank, too_fine};
 pub(crate) use padding::Padding;
-pub use size::{MOST_HEXES, Size, count_hexes, scale_for};
+#[cfg(test)]
+pub(crate) use size::MOST_HEXES;
+pub use size::Size;
 pub(crate) use size::{ScaleSearch, check_count};
+pub(crate) use size::{count_hexes, scale_for};

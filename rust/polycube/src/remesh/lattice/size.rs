@@ -16,12 +16,12 @@ pub enum Size {
     Scale(f64),
     /// Mean length of the mesh's edges in units of the shape, above 0.
     EdgeLength(f64),
-    /// How many hexahedra there shall be, padding included; 1 to [`MOST_HEXES`].
+    /// How many hexahedra there shall be, padding included; 1 to 536,870,911.
     Hexes(usize),
 }
 
 /// No mesh has more hexahedra, padding included: 32-bit numbers count their corners.
-pub const MOST_HEXES: usize = (u32::MAX / 8) as usize;
+pub(crate) const MOST_HEXES: usize = (u32::MAX / 8) as usize;
 
 impl Size {
     /// Refuses what no mesh can have.
@@ -58,7 +58,7 @@ pub(crate) fn check_count(simplified: &Simplified, padding: usize) -> Result<()>
 const CLOSE: f64 = 0.005;
 
 /// The scale at which a simplified polycube gives meshes of the wanted `size`, for [`Simplified::rescaled`] or
-/// [`Options::scale`](crate::Options::scale). The block structure is the same at every scale.
+/// [`SimplifyOptions::scale`](crate::SimplifyOptions::scale). The block structure is the same at every scale.
 ///
 /// For [`Size::Hexes`] the scale is searched for until the count with `padding` layers is within half a percent of the
 /// wanted one, or else the closest found is taken: levels are integers, so thin polycubes have few counts to choose
@@ -67,7 +67,13 @@ const CLOSE: f64 = 0.005;
 /// # Errors
 /// [`ErrorKind::Option`] for a size that is not positive and finite, or for more hexahedra than [`MOST_HEXES`];
 /// those of [`align::rescale`](crate::align::rescale()).
-pub fn scale_for(input: &Input, simplified: &Simplified, size: Size, padding: usize, context: &Context) -> Result<f64> {
+pub(crate) fn scale_for(
+    input: &Input,
+    simplified: &Simplified,
+    size: Size,
+    padding: usize,
+    context: &Context,
+) -> Result<f64> {
     size.check()?;
     match size {
         Size::Scale(scale) => Ok(scale),
@@ -85,7 +91,7 @@ pub fn scale_for(input: &Input, simplified: &Simplified, size: Size, padding: us
 }
 
 /// How many hexahedra the lattice has with `padding` layers, when the levels of a valid polycube lie at `levels`.
-pub fn count_hexes(structure: &Structure, levels: &[i64], padding: usize) -> u64 {
+pub(crate) fn count_hexes(structure: &Structure, levels: &[i64], padding: usize) -> u64 {
     let placement = placement_of(levels);
     let arrangement = Arrangement::new(structure, &placement);
     let (volume, surface) = volume_and_surface(&arrangement);

@@ -9,7 +9,7 @@ use std::sync::Arc;
 
 /// A polycube on an integer lattice. With a shape that has the same cells it is a map from the lattice to that shape.
 #[derive(Clone, Debug)]
-pub struct LatticeMap {
+pub(crate) struct LatticeMap {
     /// The polycube as it was read: which facet, edge or corner each face and vertex of the mesh belongs to.
     pub polycube: Arc<Polycube>,
     /// The mesh in lattice units: its facets lie at the levels.
@@ -23,7 +23,7 @@ impl LatticeMap {
     ///
     /// # Errors
     /// [`ErrorKind::Polycube`] when the simplification gave no valid polycube.
-    pub fn new(simplified: &Simplified) -> Result<Self> {
+    pub(crate) fn new(simplified: &Simplified) -> Result<Self> {
         let mesh = simplified.polycube.clone().ok_or_else(invalid)?;
         Ok(Self { polycube: Arc::new(simplified.input.clone()), mesh, levels: simplified.levels.clone() })
     }

@@ -9,7 +9,7 @@ mod untangling;
 mod volume_map;
 
 pub(crate) use interior::{fill_inside, interpolate};
-pub use lattice_map::LatticeMap;
+pub(crate) use lattice_map::LatticeMap;
 pub(crate) use level_interpolation::LevelInterpolation;
 pub(crate) use refine::Refined;
 pub(crate) use surface_map::SurfaceMap;

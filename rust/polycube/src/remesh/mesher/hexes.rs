@@ -10,7 +10,7 @@ use crate::remesh::lattice::{Carrier, Grid, Padding, too_fine};
 use crate::remesh::map::{fill_inside, interpolate};
 
 /// Most padding layers there can be.
-pub const MAX_PADDING: usize = 16;
+pub(crate) const MAX_PADDING: usize = 16;
 
 /// A hexahedral mesh of the shape.
 #[derive(Clone, Debug, PartialEq)]
@@ -82,7 +82,7 @@ impl Remesher<'_> {
     /// # Errors
     /// [`ErrorKind::Option`] for more padding than [`MAX_PADDING`] or more cells than 32-bit indices allow;
     /// [`ErrorKind::Cancelled`]; [`ErrorKind::Internal`] if a solver fails.
-    pub fn hexes(&self, padding: usize, context: &Context) -> Result<Hexes> {
+    pub(crate) fn hexes(&self, padding: usize, context: &Context) -> Result<Hexes> {
         check_size(&self.grid, padding)?;
         let mut outer = self.surface_points(&context.stage("map", 0.0, 0.3))?;
         self.place_inside(&mut outer, &context.stage("map", 0.3, 0.9))?;

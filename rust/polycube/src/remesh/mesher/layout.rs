@@ -46,7 +46,7 @@ impl Remesher<'_> {
     ///
     /// # Errors
     /// [`ErrorKind::Mismatch`] when `points` are not as many as [`hexes`](Self::hexes) gives.
-    pub fn layout(&self, points: &[Point], padding: usize) -> Result<Layout> {
+    pub(crate) fn layout(&self, points: &[Point], padding: usize) -> Result<Layout> {
         let numbers = Numbers { remesher: self, around: Padding::new(&self.grid, padding), padding };
         let expected = self.grid.vertices.len() + padding * numbers.around.ring.len();
         if points.len() != expected {

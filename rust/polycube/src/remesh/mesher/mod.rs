@@ -6,8 +6,10 @@ mod layout;
 mod quads;
 mod remesher;
 
+pub use hexes::Hexes;
+#[cfg(test)]
+pub(crate) use hexes::MAX_PADDING;
 pub(crate) use hexes::check_padding;
-pub use hexes::{Hexes, MAX_PADDING};
 pub use layout::{Layout, SingularEdge};
 pub use quads::Quads;
-pub use remesher::Remesher;
+pub(crate) use remesher::Remesher;

@@ -28,7 +28,7 @@ pub struct Quads {
 }
 
 impl Quads {
-    /// The [scaled Jacobians](quadrilateral_scaled_jacobian) of the quadrilaterals: how near each is to a rectangle.
+    /// The scaled Jacobians of the quadrilaterals: how near each is to a rectangle.
     /// Linear time.
     pub fn quality(&self) -> Quality {
         let Cells::Quads(quads) = self.mesh.cells() else { return Quality::new(Vec::new()) };
@@ -78,7 +78,7 @@ impl Remesher<'_> {
     ///
     /// # Errors
     /// [`ErrorKind::Cancelled`](crate::ErrorKind::Cancelled).
-    pub fn quads(&self, context: &Context) -> Result<Quads> {
+    pub(crate) fn quads(&self, context: &Context) -> Result<Quads> {
         let grid = &self.grid;
         let embedding = self.surface_points(context)?;
         let ring = grid.surface_vertices();

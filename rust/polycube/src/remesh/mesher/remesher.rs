@@ -8,7 +8,7 @@ use crate::remesh::map::{LatticeMap, SurfaceMap, VolumeMap};
 use std::sync::OnceLock;
 
 /// The lattice inside a polycube and the map from there onto a shape.
-pub struct Remesher<'a> {
+pub(crate) struct Remesher<'a> {
     pub(crate) map: &'a LatticeMap,
     pub(crate) shape: &'a [Point],
     pub(crate) grid: Grid,
@@ -24,7 +24,7 @@ impl<'a> Remesher<'a> {
     /// # Errors
     /// [`ErrorKind::Mismatch`] unless `shape` has the cells of the polycube; [`ErrorKind::Option`] when the lattice is
     /// finer than 32-bit indices can count; [`ErrorKind::Cancelled`].
-    pub fn new(map: &'a LatticeMap, shape: &'a Mesh, context: &Context) -> Result<Self> {
+    pub(crate) fn new(map: &'a LatticeMap, shape: &'a Mesh, context: &Context) -> Result<Self> {
         context.tick(0.0)?;
         let polycube = &map.mesh;
         if polycube.cells() != shape.cells() || polycube.points().len() != shape.points().len() {

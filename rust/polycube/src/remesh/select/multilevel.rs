@@ -72,7 +72,7 @@ pub(crate) fn mesh_coarsely(
         };
         let remesher = Remesher::new(&map, shape, &context)?;
         let mut hexes = remesher.hexes(options.padding, &context)?;
-        finish(coarse, &remesher, &mut hexes, options, aim, &context)?;
+        finish(coarse, &remesher, &mut hexes, aim, &context)?;
         coarse = Some(CoarseMesh::new(remesher, &hexes, options.padding));
     }
     Ok(coarse)
@@ -88,7 +88,6 @@ pub(crate) fn finish(
     coarse: Option<CoarseMesh>,
     remesher: &Remesher,
     hexes: &mut Hexes,
-    options: &RemeshOptions,
     aim: Aim,
     context: &Context,
 ) -> Result<Improved> {
@@ -99,7 +98,7 @@ pub(crate) fn finish(
     for (coarse, scope) in ways.into_iter().flatten() {
         let mut tried = hexes.clone();
         coarse.map_or(Ok(()), |coarse| coarse.start(remesher, &mut tried))?;
-        let settings = Settings { scope, ..options.optimise.clone() };
+        let settings = Settings { scope, ..Settings::default() };
         let improved = improve(&remesher.map.polycube, &mut tried, remesher.shape, &settings, aim, context)?;
         let inverted = tried.quality().inverted;
         if best.as_ref().is_none_or(|best| inverted < best.0) {

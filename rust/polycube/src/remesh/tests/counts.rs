@@ -5,7 +5,10 @@ use crate::context::Context;
 use crate::error::ErrorKind;
 use crate::measure::base_complex;
 use crate::mesh::{Cells, Mesh};
-use crate::remesh::{Hexes, LatticeMap, Layout, MAX_PADDING, Remesher, Size, count_hexes, scale_for};
+use crate::remesh::lattice::scale_for;
+use crate::remesh::map::LatticeMap;
+use crate::remesh::mesher::{MAX_PADDING, Remesher};
+use crate::remesh::{Hexes, Layout, Size, count_hexes};
 use crate::structure::Surface;
 
 /// The boundary is a closed manifold with the genus of the polycube; inner faces are shared by two.

@@ -6,17 +6,20 @@ mod pipeline;
 mod quality;
 mod surface;
 
-use super::{Hexes, LatticeMap, Remesher};
+use super::Hexes;
+use super::lattice::scale_for;
+use super::map::LatticeMap;
+use super::mesher::Remesher;
 use crate::align::Strategy;
 use crate::context::Context;
 use crate::generate::{Example, example};
 use crate::mesh::{CellKind, Cells, Mesh, Point};
-use crate::simplify::{Input, Options, Simplified, simplify};
+use crate::simplify::{Input, Simplified, SimplifyOptions, simplify};
 use std::sync::OnceLock;
 
 /// Algorithm 1, which takes less time than the default.
-fn paper() -> Options {
-    Options { strategy: Strategy::Paper, ..Options::default() }
+fn paper() -> SimplifyOptions {
+    SimplifyOptions { strategy: Strategy::Paper, ..SimplifyOptions::default() }
 }
 
 /// A pair, simplified.
@@ -34,7 +37,7 @@ impl Case {
         Self::with(&paper(), name, pair)
     }
 
-    fn with(options: &Options, name: String, (polycube, shape): (Mesh, Mesh)) -> Self {
+    fn with(options: &SimplifyOptions, name: String, (polycube, shape): (Mesh, Mesh)) -> Self {
         let input = Input { polycube: &polycube, shape: Some(&shape), labels: None };
         let simplified = simplify(&input, options, &Context::default()).unwrap();
         Self { name, polycube, shape, simplified, map: OnceLock::new() }
@@ -48,7 +51,7 @@ impl Case {
     fn sized(mut self, hexes: usize, padding: usize) -> Self {
         let context = Context::default();
         let size = super::Size::Hexes(hexes);
-        let scale = super::scale_for(&self.input(), &self.simplified, size, padding, &context).unwrap();
+        let scale = scale_for(&self.input(), &self.simplified, size, padding, &context).unwrap();
         self.simplified = self.simplified.rescaled(&self.input(), scale, &context).unwrap();
         self.map = OnceLock::new();
         self

@@ -6,8 +6,8 @@ use crate::context::Context;
 use crate::data::folder;
 use crate::measure::hausdorff::{diagonal, hausdorff};
 use crate::mesh::{Mesh, read_pair};
-use crate::remesh::Remesher;
-use crate::simplify::Options;
+use crate::remesh::mesher::Remesher;
+use crate::simplify::SimplifyOptions;
 use std::time::Instant;
 
 /// The names of the pairs, each with the endings of its files.
@@ -27,7 +27,7 @@ pub(crate) fn pair(name: &str, extension: &str) -> (Mesh, Mesh) {
     read_pair(&file("polycube"), &file("shape")).unwrap()
 }
 
-fn load(name: &str, extension: &str, options: &Options) -> Case {
+fn load(name: &str, extension: &str, options: &SimplifyOptions) -> Case {
     Case::with(options, format!("{name}.{extension}"), pair(name, extension))
 }
 
@@ -55,7 +55,7 @@ fn meshes_of_real_pairs_have_the_reported_structure() {
 fn numbers_of_real_pairs() {
     let context = Context::default();
     let naive = std::env::var_os("POLYCUBE_NAIVE").is_some();
-    let options = if naive { Options { strategy: Strategy::Naive, ..paper() } } else { paper() };
+    let options = if naive { SimplifyOptions { strategy: Strategy::Naive, ..paper() } } else { paper() };
     let only = std::env::var("POLYCUBE_ONLY").unwrap_or_default();
     for (name, extension) in pairs().into_iter().filter(|(n, _)| n.contains(&only)) {
         let start = Instant::now();

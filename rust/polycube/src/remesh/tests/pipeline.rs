@@ -7,11 +7,13 @@ use crate::error::ErrorKind;
 use crate::generate::{Example, example};
 use crate::measure::{base_complex, hausdorff};
 use crate::mesh::{CellKind, Mesh};
-use crate::remesh::{MAX_PADDING, MOST_HEXES, RemeshOptions, Remeshed, Size, remesh};
-use crate::simplify::{Input, Note, Options};
+use crate::remesh::lattice::MOST_HEXES;
+use crate::remesh::mesher::MAX_PADDING;
+use crate::remesh::{RemeshOptions, Remeshed, Size, remesh};
+use crate::simplify::{Input, Note, SimplifyOptions};
 
 fn options(strategy: Strategy, hexes: usize) -> RemeshOptions {
-    let simplify = Options { strategy, ..Options::default() };
+    let simplify = SimplifyOptions { strategy, ..SimplifyOptions::default() };
     RemeshOptions { simplify, size: Some(Size::Hexes(hexes)), max_hausdorff: 0.05, ..RemeshOptions::default() }
 }
 
@@ -73,12 +75,12 @@ fn wrong_options_and_cancelling_are_errors() {
         sized(Size::Hexes(MOST_HEXES + 1)),
         sized(Size::EdgeLength(f64::NAN)),
         sized(Size::Scale(-1.0)),
-        simplified(Options { scale: Some(0.0), ..Options::default() }),
-        simplified(Options { simplicity: Some(1.5), ..Options::default() }),
-        simplified(Options { max_displacement: Some(-1.0), ..Options::default() }),
-        simplified(Options { max_displacement: Some(f64::INFINITY), ..Options::default() }),
-        simplified(Options { max_distortion: Some(f64::NAN), ..Options::default() }),
-        simplified(Options { lambda_min: -7.0, ..Options::default() }),
+        simplified(SimplifyOptions { scale: Some(0.0), ..SimplifyOptions::default() }),
+        simplified(SimplifyOptions { simplicity: Some(1.5), ..SimplifyOptions::default() }),
+        simplified(SimplifyOptions { max_displacement: Some(-1.0), ..SimplifyOptions::default() }),
+        simplified(SimplifyOptions { max_displacement: Some(f64::INFINITY), ..SimplifyOptions::default() }),
+        simplified(SimplifyOptions { max_distortion: Some(f64::NAN), ..SimplifyOptions::default() }),
+        simplified(SimplifyOptions { lambda_min: -7.0, ..SimplifyOptions::default() }),
     ];
     for bad in bad {
         // Nothing is begun.
@@ -128,7 +130,10 @@ fn the_fewest_blocks_are_meshed_where_that_is_asked_for_and_good_ones_where_not(
 fn surfaces_are_not_folded_where_more_patches_help() {
     for name in Example::ALL {
         let pair = example(name, 1, CellKind::Triangles).unwrap();
-        let quick = Options { effort: Effort { steps_per_level: 50, ..Effort::default() }, ..Options::default() };
+        let quick = SimplifyOptions {
+            effort: Effort { steps_per_level: 50, ..Effort::default() },
+            ..SimplifyOptions::default()
+        };
         let options = RemeshOptions { simplify: quick, surface_only: true, ..options(Strategy::Best, 3000) };
         let Remeshed { quads, report, .. } = run(&pair, &options);
         let inverted = quads.quality().inverted;
@@ -142,7 +147,7 @@ fn surfaces_are_not_folded_where_more_patches_help() {
 #[test]
 fn a_surface_that_is_folded_as_asked_says_so() {
     let pair = example(Example::Ring, 1, CellKind::Triangles).unwrap();
-    let fewest = Options { simplicity: Some(1.0), ..Options::default() };
+    let fewest = SimplifyOptions { simplicity: Some(1.0), ..SimplifyOptions::default() };
     let options = RemeshOptions { simplify: fewest, surface_only: true, ..options(Strategy::Best, 3000) };
     let report = run(&pair, &options).report;
     assert!(report.folded > 0 && report.inverted_quads > 0 && !report.is_good());

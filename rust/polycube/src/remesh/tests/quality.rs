@@ -8,11 +8,11 @@ use crate::data::folder;
 use crate::generate::{Example, example};
 use crate::mesh::{CellKind, Mesh, Point};
 use crate::remesh::{Hexes, RemeshOptions, Remeshed, Size, remesh};
-use crate::simplify::{Input, Options};
+use crate::simplify::{Input, SimplifyOptions};
 
 fn run((polycube, shape): &(Mesh, Mesh), hexes: usize) -> Remeshed {
     let input = Input { polycube, shape: Some(shape), labels: None };
-    let simplify = Options { strategy: Strategy::Paper, ..Options::default() };
+    let simplify = SimplifyOptions { strategy: Strategy::Paper, ..SimplifyOptions::default() };
     let options = RemeshOptions { simplify, size: Some(Size::Hexes(hexes)), ..RemeshOptions::default() };
     remesh(&input, &options, &Context::default()).unwrap()
 }

@@ -6,8 +6,8 @@ use crate::context::Context;
 use crate::generate::{Example, example};
 use crate::measure::hausdorff;
 use crate::mesh::{CellKind, Face, Mesh, Point};
-use crate::remesh::Carrier;
-use crate::simplify::Options;
+use crate::remesh::lattice::Carrier;
+use crate::simplify::SimplifyOptions;
 use crate::spatial::Nearest;
 
 fn size(mesh: &Mesh) -> f64 {
@@ -56,7 +56,7 @@ pub(crate) fn check(case: &Case) {
 fn the_identity_gives_the_lattice() {
     for (kind, e) in CellKind::ALL.into_iter().zip(Example::ALL) {
         let (polycube, _) = example(e, 0, kind).unwrap();
-        let options = Options { strategy: Strategy::Naive, ..Options::default() };
+        let options = SimplifyOptions { strategy: Strategy::Naive, ..SimplifyOptions::default() };
         let case = Case::with(&options, format!("{e} {kind}"), (polycube.clone(), polycube));
         let context = Context::default();
         let remesher = case.remesher();

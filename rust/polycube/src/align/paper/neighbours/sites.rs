@@ -26,7 +26,7 @@ pub(super) struct Sites {
 
 impl Sites {
     /// Gathers the sites of at least one point.
-    pub fn new(input: &[[i64; 3]]) -> Result<Self> {
+    pub(super) fn new(input: &[[i64; 3]]) -> Result<Self> {
         check(input)?;
         let mut members: Vec<u32> = (0..input.len() as u32).collect();
         members.sort_unstable_by_key(|&i| (input[i as usize], i));
@@ -39,23 +39,23 @@ impl Sites {
     }
 
     /// How many sites there are, helpers excluded.
-    pub fn len(&self) -> usize {
+    pub(super) fn len(&self) -> usize {
         self.starts.len() - 1
     }
 
     /// How many points there are at all sites.
-    pub fn count(&self) -> usize {
+    pub(super) fn count(&self) -> usize {
         self.members.len()
     }
 
     /// The points at a site, ascending.
-    pub fn members(&self, site: usize) -> &[u32] {
+    pub(super) fn members(&self, site: usize) -> &[u32] {
         &self.members[self.starts[site]..self.starts[site + 1]]
     }
 
     /// The sites outside the frame, in an order that makes insertion fast: rounds of about doubling
     /// size, each along a space-filling curve (Amenta, Choi and Rote 2003).
-    pub fn insertion_order(&self) -> Vec<u32> {
+    pub(super) fn insertion_order(&self) -> Vec<u32> {
         let curve = Curve::new(&self.points);
         let mut keyed: Vec<_> = (0..self.len() as u32)
             .filter(|site| !self.frame.contains(site))
