@@ -1,7 +1,7 @@
 //! Sums the energy over all elements on all threads, in an order that does not depend on their number.
 //!
-//! Elements are cut into chunks of fixed size. Each chunk gathers its gradient over its own vertices, and then each vertex sums
-//! up its chunks in order.
+//! Elements are cut into chunks of fixed size. Each chunk gathers its gradient over its own vertices, and then each
+//! vertex sums up its chunks in order.
 
 use super::elements::{Elements, Reference};
 use super::energy::Law;
@@ -151,7 +151,8 @@ fn chunk(index: u32, corners: &[[u32; 4]], local: &mut [(u32, u16)]) -> Chunk {
 }
 
 impl Chunk {
-    /// Sums up the energies and the forces on the vertices. Returns whether the energy is finite; if not, there is no sum.
+    /// Sums up the energies and the forces on the vertices. Returns whether the energy is finite; if not, there is no
+    /// sum.
     fn evaluate(&mut self, elements: &Elements, first: usize, points: &[Point], law: &Law) -> bool {
         self.energy = 0.0;
         self.gradient.fill(Vector3::zeros());

@@ -94,8 +94,8 @@ impl Elements {
         Ok(Self::new(tets.to_vec(), shapes, weights, 1, Measure::MeanRatio))
     }
 
-    /// Tetrahedra that should be regular, all of one size and one weight, so that thin ones count as much as others where a mesh is
-    /// to be untangled.
+    /// Tetrahedra that should be regular, all of one size and one weight, so that thin ones count as much as others
+    /// where a mesh is to be untangled.
     pub fn regular_tetrahedra(tets: &[[u32; 4]]) -> Self {
         let shapes = vec![regular(); tets.len()];
         Self::new(tets.to_vec(), shapes, vec![1.0; tets.len()], 1, Measure::MeanRatio)
@@ -114,8 +114,9 @@ impl Elements {
     /// Hexahedra that should be boxes with about the edge lengths they have in `points`; eight
     /// corner tetrahedra each.
     ///
-    /// The lengths are averaged over parallel edges, `smoothing` times over the neighbours as well (3 is a good number), so
-    /// layers that are thin on purpose stay thin, while single odd edges do not count. O(n log n) for sorting the edges.
+    /// The lengths are averaged over parallel edges, `smoothing` times over the neighbours as well (3 is a good
+    /// number), so layers that are thin on purpose stay thin, while single odd edges do not count. O(n log n) for
+    /// sorting the edges.
     ///
     /// # Errors
     /// [`ErrorKind::Mesh`] naming the cell that has a vertex outside `points`.
@@ -124,8 +125,8 @@ impl Elements {
         Ok(Self::boxes(hexes, points, &box_sizes(hexes, points, smoothing)))
     }
 
-    /// The same, but no box is thinner than 0.3 times the mean edge or a quarter of its own longest side: cells that have
-    /// collapsed are no example.
+    /// The same, but no box is thinner than 0.3 times the mean edge or a quarter of its own longest side: cells that
+    /// have collapsed are no example.
     ///
     /// # Errors
     /// Those of [`boxes_like`](Self::boxes_like).

@@ -47,8 +47,8 @@ impl Lanes {
         self.0.iter().fold(true, |all, l| all & (*l > x))
     }
 
-    /// One over the cubic root of positive normal numbers, to a few units in the last place: a guess from the exponent and four
-    /// steps of Newton's method, which have no division.
+    /// One over the cubic root of positive normal numbers, to a few units in the last place: a guess from the exponent
+    /// and four steps of Newton's method, which have no division.
     #[inline(always)]
     pub(super) fn inverse_cbrt(self) -> Self {
         let third = self * (1.0 / 3.0);

@@ -117,8 +117,8 @@ fn search(
     Ok(best)
 }
 
-/// Minimises the energy that `evaluate` gives together with its gradient, starting at and returning in `points`. Steps are
-/// sums of gradients, so they stay in any linear space the gradients lie in.
+/// Minimises the energy that `evaluate` gives together with its gradient, starting at and returning in `points`. Steps
+/// are sums of gradients, so they stay in any linear space the gradients lie in.
 ///
 /// # Errors
 /// Those of `evaluate`; the points are unchanged then.

@@ -127,8 +127,8 @@ pub struct OptimiseReport {
 ///
 /// Fixed coordinates keep their bits, and sliding points end on their guides. If the input, put on its guides, has no
 /// inverted element, neither has the result, and its worst quality is at least that of the input put on its guides. If
-/// it has, they are removed as far as the settings and the boundary allow; [`OptimiseReport::inverted_after`] tells. References
-/// are scaled to the mean size of the elements.
+/// it has, they are removed as far as the settings and the boundary allow; [`OptimiseReport::inverted_after`] tells.
+/// References are scaled to the mean size of the elements.
 ///
 /// Each iteration takes linear time on all threads of the current rayon pool; about 500 bytes an element.
 ///

@@ -25,8 +25,8 @@ pub(super) struct Room {
     pub(super) elements: usize,
 }
 
-/// The regions around the cells `bad`, of `most` cells together: the largest are left out. Cells without a vertex that can move are
-/// in none, as nothing turns them.
+/// The regions around the cells `bad`, of `most` cells together: the largest are left out. Cells without a vertex that
+/// can move are in none, as nothing turns them.
 pub(super) fn regions(
     elements: &Elements,
     constraints: &Constraints,

@@ -8,8 +8,8 @@ use std::collections::BTreeSet;
 /// Most triangles that change chart, as a multiple of all.
 const MOST: usize = 20;
 
-/// Gives triangles beside a border to the chart behind it as long as that makes `Σ area (1 − normal · label) + stiffness · length of
-/// borders` smaller. What meets what stays: charts are what they were, up to a deformation.
+/// Gives triangles beside a border to the chart behind it as long as that makes `Σ area (1 − normal · label) +
+/// stiffness · length of borders` smaller. What meets what stays: charts are what they were, up to a deformation.
 pub(super) fn relabel(charts: &mut Traced, stiffness: f64) {
     let Traced { mesh, labels, .. } = charts;
     let mut waiting: BTreeSet<u32> = (0..mesh.triangles.len() as u32).filter(|&t| is_at_border(mesh, t)).collect();

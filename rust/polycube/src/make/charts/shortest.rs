@@ -31,8 +31,8 @@ pub(super) struct Shortest {
 }
 
 impl Shortest {
-    /// Searches from `from` among `count` vertices; `neighbours` calls back with each neighbour of a vertex and the length of
-    /// the step there. O(n log n) for the n steps met.
+    /// Searches from `from` among `count` vertices; `neighbours` calls back with each neighbour of a vertex and the
+    /// length of the step there. O(n log n) for the n steps met.
     pub(super) fn run(&mut self, count: usize, from: u32, neighbours: impl Fn(u32, &mut dyn FnMut(u32, f64))) {
         for v in self.reached.drain(..) {
             self.distance[v as usize] = f64::INFINITY;

@@ -9,8 +9,8 @@ const PASSES: usize = 6;
 /// A triangle of less area than this part of its longest side squared is too thin to be made.
 const THIN: f64 = 1e-3;
 
-/// Removes vertices beyond the first `kept` where their triangles can be filled by those around, without leaving the triangles of the
-/// shape, in which `normals` stand up.
+/// Removes vertices beyond the first `kept` where their triangles can be filled by those around, without leaving the
+/// triangles of the shape, in which `normals` stand up.
 pub(super) fn thin_out(charts: &mut Traced, kept: usize, normals: &[Vector3<f64>]) {
     let mut thinner = Thinner { mesh: &mut charts.mesh, normals };
     for _ in 0..PASSES {
@@ -58,7 +58,8 @@ impl Thinner<'_> {
         triangle.patch != self.mesh.triangles[triangle.neighbours[k] as usize].patch
     }
 
-    /// Whether borders of charts stay what they are when the start of a side, which `borders` of them meet, moves to its end.
+    /// Whether borders of charts stay what they are when the start of a side, which `borders` of them meet, moves to
+    /// its end.
     fn keeps_charts(&self, side: &(u32, usize), borders: usize) -> bool {
         let end = self.mesh.end(side.0, side.1);
         let others = self.mesh.fan(end).filter(|s| self.is_border(s)).count();
@@ -69,8 +70,8 @@ impl Thinner<'_> {
         }
     }
 
-    /// Whether the two ends of a side have no common neighbour but the two beside it, and no border runs round a triangle that
-    /// would vanish.
+    /// Whether the two ends of a side have no common neighbour but the two beside it, and no border runs round a
+    /// triangle that would vanish.
     fn is_simple(&self, v: u32, &(t, k): &(u32, usize), fan: &[(u32, usize)]) -> bool {
         let end = self.mesh.end(t, k);
         let (u, _) = self.mesh.opposite(t, k);
@@ -85,7 +86,8 @@ impl Thinner<'_> {
         common == 2 && beside.iter().all(|&b| !(border_to(v, b) && border_to(end, b)))
     }
 
-    /// The least area over squared longest side among the triangles that would change; not positive where one would turn over.
+    /// The least area over squared longest side among the triangles that would change; not positive where one would
+    /// turn over.
     fn quality(&self, v: u32, &(t, k): &(u32, usize), fan: &[(u32, usize)]) -> f64 {
         let end = self.mesh.end(t, k);
         let gone = [t, self.mesh.triangles[t as usize].neighbours[k]];

@@ -217,8 +217,8 @@ impl<'a> Tracer<'a> {
         });
     }
 
-    /// Cuts all sides inside a region whose ends are both blocked, so that its other vertices hang together and every blocked
-    /// one has one of them as neighbour.
+    /// Cuts all sides inside a region whose ends are both blocked, so that its other vertices hang together and every
+    /// blocked one has one of them as neighbour.
     fn open(&mut self, region: usize) {
         let mut i = 0;
         while i < self.members[region].len() {

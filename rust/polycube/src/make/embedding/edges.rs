@@ -5,8 +5,8 @@ use crate::mesh::Point;
 
 type Fixed = [Option<f64>; 3];
 
-/// What every vertex must have: the levels of the charts around it, which `level` tells, and along edges a place in proportion to the
-/// length on the shape.
+/// What every vertex must have: the levels of the charts around it, which `level` tells, and along edges a place in
+/// proportion to the length on the shape.
 pub(super) fn prescribed(charts: &Charts, level: impl Fn(u32) -> f64) -> Vec<Fixed> {
     let mut fixed = vec![[None; 3]; charts.points.len()];
     for (t, &chart) in charts.triangles.iter().zip(&charts.chart) {

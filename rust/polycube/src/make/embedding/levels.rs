@@ -88,8 +88,8 @@ impl Levels {
         self.places.iter().map(|p| self.scale * p.0).collect()
     }
 
-    /// Where levels lie so that edges of the polycube are about as long as on the shape: least squares of relative lengths, by
-    /// Jacobi's iteration with damping.
+    /// Where levels lie so that edges of the polycube are about as long as on the shape: least squares of relative
+    /// lengths, by Jacobi's iteration with damping.
     pub(super) fn as_long_as(&self, spans: &[Span]) -> Vec<f64> {
         let mean = spans.iter().map(|s| s.length).sum::<f64>() / spans.len().max(1) as f64;
         let total: f64 = self.places.iter().map(|p| p.1).sum();

@@ -26,8 +26,8 @@ pub(super) struct Embedded {
 
 /// Puts the charts in place, apart from each other, and lays them flat.
 ///
-/// Levels go to where edges become about as long as on the shape; where the polycube would touch itself then, to where charts lie on the
-/// shape; and where it does so still, levels that keep parts apart on the shape are kept in order.
+/// Levels go to where edges become about as long as on the shape; where the polycube would touch itself then, to where
+/// charts lie on the shape; and where it does so still, levels that keep parts apart on the shape are kept in order.
 ///
 /// # Errors
 /// [`ErrorKind::Polycube`] if parts cannot be kept apart; those of the solver and of
@@ -117,7 +117,8 @@ impl<'a> Embedding<'a> {
         edges.map(span).collect()
     }
 
-    /// Keeps parts that meet apart along the axis where they are farthest apart on the shape; whether that adds anything.
+    /// Keeps parts that meet apart along the axis where they are farthest apart on the shape; whether that adds
+    /// anything.
     fn separate(&mut self, polycube: &Polycube, found: &[Conflict], on_the_shape: &[f64]) -> bool {
         let numbers = self.numbers(polycube);
         let at = |level: u32| on_the_shape[numbers[level as usize] as usize];

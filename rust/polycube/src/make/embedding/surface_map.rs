@@ -27,8 +27,8 @@ const UNFOLD: Settings = Settings {
 };
 const SMOOTH: Settings = Settings { untangle_rounds: 0, improve_rounds: 2, improve_iterations: 50, ..UNFOLD };
 
-/// Lays every chart flat in its facet, with the borders held, then lets vertices slide along the edges. Triangles that cannot be
-/// turned the right way round are cut finer. Returns those that stay turned over.
+/// Lays every chart flat in its facet, with the borders held, then lets vertices slide along the edges. Triangles that
+/// cannot be turned the right way round are cut finer. Returns those that stay turned over.
 pub(crate) fn unfold(refined: &mut Refined, context: &Context) -> Result<Vec<usize>> {
     lay_flat(refined, &context.stage("map", 0.0, 0.1))?;
     let mut folded = turned_over(refined);
@@ -51,8 +51,9 @@ fn turned_over(refined: &Refined) -> Vec<usize> {
     CornerTetrahedra::of_surface(&refined.polycube, &refined.points, &refined.shape).turned_over()
 }
 
-/// Untangles the facets of the triangles listed, each as a whole: what is near alone would often be caught. At first triangles shall look
-/// as on the shape; where that leaves some turned over, thin ones, which hardly count there, shall look like all others.
+/// Untangles the facets of the triangles listed, each as a whole: what is near alone would often be caught. At first
+/// triangles shall look as on the shape; where that leaves some turned over, thin ones, which hardly count there, shall
+/// look like all others.
 fn unfold_facets(refined: &mut Refined, folded: &[usize], round: usize, context: &Context) -> Result<()> {
     let mut marked = vec![false; refined.polycube.structure.facets.len()];
     folded.iter().for_each(|&t| marked[refined.polycube.facet_of_face[t] as usize] = true);

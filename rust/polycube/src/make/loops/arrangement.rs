@@ -35,8 +35,8 @@ pub(crate) struct Loop {
     pub(crate) zones: [u32; 2],
 }
 
-/// A part of a loop between two crossings, with a sense: four times the crossing that it leaves, plus twice the place of the
-/// loop there, plus one where it runs forward (high side left).
+/// A part of a loop between two crossings, with a sense: four times the crossing that it leaves, plus twice the place
+/// of the loop there, plus one where it runs forward (high side left).
 pub(crate) type Arc = u32;
 
 /// The sides of a region: up to six arcs, counter-clockwise.
@@ -91,7 +91,8 @@ impl Arrangement {
         }
     }
 
-    /// Finds on which side of the second loop the first one starts: the first wall to the left of the first leads away there.
+    /// Finds on which side of the second loop the first one starts: the first wall to the left of the first leads away
+    /// there.
     fn orient(&mut self, mesh: &CutMesh, alive: &[bool], at: &[u32]) {
         let is_wall = |t: usize, k: usize| {
             let cut = mesh.triangles[t].cut[k];

@@ -9,7 +9,8 @@ use std::collections::BTreeSet;
 
 /// Trials for a loop that cannot go alone.
 const BUDGET: usize = 30;
-/// Moves of several loops are looked for once the best of single loops costs more than this share of what a corner is worth.
+/// Moves of several loops are looked for once the best of single loops costs more than this share of what a corner is
+/// worth.
 const CHEAP: f64 = 0.3;
 /// How often all loops are looked at again when no move is known.
 const REVIEWS: usize = 2;

@@ -11,9 +11,9 @@ const SHARPNESS: f64 = 4.0;
 
 /// What the three functions are solved from.
 ///
-/// Level sets of plain coordinates cut a thin round rim into stairs, as no two chords of it meet. These functions are near to
-/// the coordinates (Poisson's equation, screened), but their gradients are zero where the surface faces the axis, as on the
-/// polycube that is looked for: on them the rim is a square.
+/// Level sets of plain coordinates cut a thin round rim into stairs, as no two chords of it meet. These functions are
+/// near to the coordinates (Poisson's equation, screened), but their gradients are zero where the surface faces the
+/// axis, as on the polycube that is looked for: on them the rim is a square.
 #[derive(Clone, Debug)]
 pub(super) struct Field {
     laplacian: Laplacian,
@@ -46,8 +46,8 @@ impl Field {
         Self { laplacian: Laplacian::new(points, triangles), sources, coordinates, size }
     }
 
-    /// The three functions. `reach` is how far from a vertex others pull on it, `smooth` the size of what is smoothed away; both
-    /// are shares of the longest side, and nothing is smoothed for 0.
+    /// The three functions. `reach` is how far from a vertex others pull on it, `smooth` the size of what is smoothed
+    /// away; both are shares of the longest side, and nothing is smoothed for 0.
     ///
     /// # Errors
     /// Only that the context was cancelled.

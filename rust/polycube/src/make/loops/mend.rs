@@ -8,8 +8,9 @@ use crate::error::Result;
 use std::collections::BTreeSet;
 
 impl Moves {
-    /// Takes loops away, as few crossings as can be found, so that all regions there become valid; regions that are no discs
-    /// stay as they are. Tries `budget` sets for a region, of at most `share` of all crossings. Returns the loops taken.
+    /// Takes loops away, as few crossings as can be found, so that all regions there become valid; regions that are no
+    /// discs stay as they are. Tries `budget` sets for a region, of at most `share` of all crossings. Returns the loops
+    /// taken.
     ///
     /// # Errors
     /// Only that the context was cancelled.

@@ -6,8 +6,14 @@ use super::cut_mesh::CutMesh;
 use super::energy::Energies;
 use super::order::Order;
 use super::regions::Regions;
-use super::trial::Transfer;
 use petgraph::unionfind::UnionFind;
+
+/// What was part of the face of one crossing becomes part of two others, half each.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Transfer {
+    pub(super) from: u32,
+    pub(super) to: [u32; 2],
+}
 
 /// The loops, their zones, and what is known of both.
 #[derive(Clone, Debug)]

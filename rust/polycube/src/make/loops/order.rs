@@ -75,8 +75,8 @@ impl Order {
         sorted == self.zones
     }
 
-    /// All loops between zones that fall together once the `doomed` loops, of which some touch `seeds`, are gone: the zones
-    /// on a cycle through doomed loops in both senses.
+    /// All loops between zones that fall together once the `doomed` loops, of which some touch `seeds`, are gone: the
+    /// zones on a cycle through doomed loops in both senses.
     pub(super) fn closure(&mut self, seeds: &[u32], doomed: &[bool]) -> Vec<u32> {
         let mut search = std::mem::take(&mut self.search);
         for &seed in seeds {

@@ -4,7 +4,6 @@ use super::NONE;
 use super::arrangement::{Arc, Arrangement};
 use super::cut_mesh::{Cut, CutMesh};
 use super::regions::Regions;
-use super::start::widest_gap;
 use crate::context::Context;
 use crate::error::Result;
 
@@ -174,8 +173,8 @@ impl<'a> Repair<'a> {
         found
     }
 
-    /// Takes a loop beside a region away: one that crosses no other, or, if nothing else helped for long, the shortest that is
-    /// too many.
+    /// Takes a loop beside a region away: one that crosses no other, or, if nothing else helped for long, the shortest
+    /// that is too many.
     fn remove(&mut self, fault: &Fault) -> bool {
         let loop_of = |h: &Arc| self.arrangement.loop_of(*h);
         let desperate = self.round >= DESPERATE && self.round.is_multiple_of(4);
@@ -234,4 +233,23 @@ fn find_faults(mesh: &CutMesh, alive: &[bool], arrangement: &Arrangement) -> Vec
         Some(Fault { why: why?, region, triangles, arcs, lone })
     };
     why.into_iter().enumerate().filter_map(fault).collect()
+}
+
+/// The middle of the widest gap between values in the middle half of a span; in the middle of the span for choice.
+pub(super) fn widest_gap(sorted: &[f64], low: f64, high: f64) -> f64 {
+    let (from, to) = (low + 0.25 * (high - low), high - 0.25 * (high - low));
+    let middle = 0.5 * (low + high);
+    let first = sorted.partition_point(|&x| x < from);
+    let last = sorted.partition_point(|&x| x <= to);
+    let inner = sorted[first..last.max(first)].iter().copied();
+    let (mut best, mut before) = ((0.0, middle), from);
+    for x in inner.chain([to]) {
+        let at = 0.5 * (before + x);
+        let score = (x - before) * (1.0 - 0.5 * ((at - middle) / (to - from)).abs());
+        if score > best.0 {
+            best = (score, at);
+        }
+        before = x;
+    }
+    best.1
 }

@@ -11,7 +11,8 @@ pub(super) type Values = Vec<[f64; 3]>;
 const ITERATIONS: usize = 300;
 const REDUCTION: f64 = 1e-7;
 
-/// The cotangent Laplacian of a triangle mesh (Pinkall and Polthier, 1993) with weights kept positive, and lumped areas.
+/// The cotangent Laplacian of a triangle mesh (Pinkall and Polthier, 1993) with weights kept positive, and lumped
+/// areas.
 #[derive(Clone, Debug)]
 pub(super) struct Laplacian {
     start: Vec<u32>,

@@ -4,7 +4,7 @@ use super::arrangement::Arrangement;
 use super::cut_mesh::{Cut, CutMesh};
 use super::energy::Energies;
 use super::moves::Moves;
-use super::repair::Repair;
+use super::repair::{Repair, widest_gap};
 use crate::context::Context;
 use crate::error::Result;
 use crate::mesh::Point;
@@ -135,23 +135,4 @@ fn best_part(facing: &[f64], slot: usize) -> usize {
     };
     let inner = parts.start + 2..parts.end - 2;
     inner.min_by(|p, q| cost(p).total_cmp(&cost(q))).unwrap_or(parts.start)
-}
-
-/// The middle of the widest gap between values in the middle half of a span; in the middle of the span for choice.
-pub(super) fn widest_gap(sorted: &[f64], low: f64, high: f64) -> f64 {
-    let (from, to) = (low + 0.25 * (high - low), high - 0.25 * (high - low));
-    let middle = 0.5 * (low + high);
-    let first = sorted.partition_point(|&x| x < from);
-    let last = sorted.partition_point(|&x| x <= to);
-    let inner = sorted[first..last.max(first)].iter().copied();
-    let (mut best, mut before) = ((0.0, middle), from);
-    for x in inner.chain([to]) {
-        let at = 0.5 * (before + x);
-        let score = (x - before) * (1.0 - 0.5 * ((at - middle) / (to - from)).abs());
-        if score > best.0 {
-            best = (score, at);
-        }
-        before = x;
-    }
-    best.1
 }

@@ -2,7 +2,7 @@
 
 use super::NONE;
 use super::arrangement::Arc;
-use super::moves::Moves;
+use super::moves::{Moves, Transfer};
 use petgraph::unionfind::UnionFind;
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -39,13 +39,6 @@ pub(super) enum Trial {
     Valid(Move),
     /// They cannot.
     Blocked(Blocked),
-}
-
-/// What was part of the face of one crossing becomes part of two others, half each.
-#[derive(Clone, Copy, Debug)]
-pub(super) struct Transfer {
-    pub(super) from: u32,
-    pub(super) to: [u32; 2],
 }
 
 /// The least arc around a region, and whether it is a corner.
@@ -90,8 +83,8 @@ impl Moves {
         loops.iter().for_each(|&l| self.doomed[l as usize] = false);
     }
 
-    /// Looks for a move of least `value` that takes at least the loops of `first` away, best first, in about `budget` trials of
-    /// at most `most` crossings. `expanded` are sets whose extensions were tried.
+    /// Looks for a move of least `value` that takes at least the loops of `first` away, best first, in about `budget`
+    /// trials of at most `most` crossings. `expanded` are sets whose extensions were tried.
     pub(super) fn unblock(
         &mut self,
         first: Blocked,
@@ -131,8 +124,8 @@ impl Moves {
         best
     }
 
-    /// Dooms loops and all that must go with them: those between zones that would fall together, and those that would cross
-    /// nothing.
+    /// Dooms loops and all that must go with them: those between zones that would fall together, and those that would
+    /// cross nothing.
     fn close(&mut self, loops: &[u32]) -> Vec<u32> {
         let mut set: Vec<u32> = Vec::new();
         self.doom(loops, &mut set);
@@ -224,8 +217,8 @@ impl Moves {
         regions
     }
 
-    /// The regions there would be without these crossings of doomed loops; if some are invalid, how many, and the loops around
-    /// the smallest.
+    /// The regions there would be without these crossings of doomed loops; if some are invalid, how many, and the loops
+    /// around the smallest.
     fn regions_after(&mut self, crossings: &[u32]) -> Result<Vec<CornerOrNot>, Invalid> {
         let fresh = self.unlink(crossings);
         let mut regions = Vec::new();
@@ -323,8 +316,8 @@ impl Moves {
         (holed.len().max(1), options)
     }
 
-    /// Where the faces of crossings go, and by how much the misfit grows: along the loop that stays to the nearest crossing on
-    /// either side that stays, to one with the same label if there is one, else to the cheaper one.
+    /// Where the faces of crossings go, and by how much the misfit grows: along the loop that stays to the nearest
+    /// crossing on either side that stays, to one with the same label if there is one, else to the cheaper one.
     fn transfers(&self, crossings: &[u32]) -> Option<(f64, Vec<Transfer>)> {
         let mut cost = 0.0;
         let mut transfers = Vec::with_capacity(crossings.len());
@@ -344,7 +337,8 @@ impl Moves {
         Some((cost, transfers))
     }
 
-    /// The crossings that stay next to one that goes. Where both of its loops go, those next to its neighbours that lose one.
+    /// The crossings that stay next to one that goes. Where both of its loops go, those next to its neighbours that
+    /// lose one.
     fn heirs(&self, q: u32) -> Vec<u32> {
         let loops = self.arrangement.crossings[q as usize].loops;
         let doomed = loops.map(|l| self.doomed[l as usize]);
