@@ -14,6 +14,15 @@ set(POLYCUBE_CARGO_TARGET_DIR "${default}" CACHE PATH "Where cargo builds; share
 set(POLYCUBE_CARGO_PROFILE release CACHE STRING "Profile of the core: release, or dev for quick builds")
 set_property(CACHE POLYCUBE_CARGO_PROFILE PROPERTY STRINGS release dev)
 
+option(POLYCUBE_CARGO_TESTED "Build the core as the tests of the workspace do, which so need not be compiled again" OFF)
+
+# Cargo compiles packages again that get other features, which all packages that are built together decide.
+if(POLYCUBE_CARGO_TESTED)
+  set(build build --manifest-path "${root}/Cargo.toml" --workspace --exclude polycube-py --lib --bins --tests)
+else()
+  set(build rustc --manifest-path "${root}/rust/polycube-cxx/Cargo.toml" --lib --crate-type staticlib)
+endif()
+
 string(REPLACE "dev" "debug" folder "${POLYCUBE_CARGO_PROFILE}")
 set(built "${POLYCUBE_CARGO_TARGET_DIR}/${folder}/libpolycube_cxx.a")
 set(header "${POLYCUBE_CARGO_TARGET_DIR}/cxxbridge/polycube-cxx/src/lib.rs.h")
@@ -25,9 +34,8 @@ file(GLOB_RECURSE sources CONFIGURE_DEPENDS "${root}/rust/polycube/src/*.rs" "${
      "${root}/rust/polycube-cxx/src/*.rs" "${root}/rust/polycube-cxx/include/*.h")
 add_custom_command(
   OUTPUT "${POLYCUBE_CORE_ARCHIVE}" "${bridge}/polycube-cxx/src/lib.rs.h" "${bridge}/rust/cxx.h"
-  COMMAND "${CMAKE_COMMAND}" -E env "CARGO_TARGET_DIR=${POLYCUBE_CARGO_TARGET_DIR}" "${POLYCUBE_CARGO}" rustc --quiet
-          --locked --profile "${POLYCUBE_CARGO_PROFILE}" --manifest-path "${root}/rust/polycube-cxx/Cargo.toml" --lib
-          --crate-type staticlib
+  COMMAND "${CMAKE_COMMAND}" -E env "CARGO_TARGET_DIR=${POLYCUBE_CARGO_TARGET_DIR}" "${POLYCUBE_CARGO}" ${build} --quiet
+          --locked --profile "${POLYCUBE_CARGO_PROFILE}"
   COMMAND "${CMAKE_COMMAND}" -E copy "${built}" "${POLYCUBE_CORE_ARCHIVE}"
   COMMAND "${CMAKE_COMMAND}" -E make_directory "${bridge}/polycube-cxx/src" "${bridge}/rust"
   COMMAND "${CMAKE_COMMAND}" -E copy "${header}" "${bridge}/polycube-cxx/src/lib.rs.h"

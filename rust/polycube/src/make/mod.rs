@@ -1,8 +1,8 @@
 //! A polycube of a plain shape: any closed, oriented, manifold surface, of any genus and any number of parts.
 //!
-//! [`make()`] is the way in. It goes from structure to place: `loops` finds few closed curves of three kinds on the surface whose
-//! dual is a polycube, valid from the first to the last, `charts` draws that polycube's facets on the surface, and `embedding`
-//! puts them in space, apart from each other, and lays each chart flat in its facet.
+//! [`make()`] is the way in. It goes from structure to place: `loops` finds few closed curves of three kinds on the
+//! surface whose dual is a polycube, valid from the first to the last, `charts` draws that polycube's facets on the
+//! surface, and `embedding` puts them in space, apart from each other, and lays each chart flat in its facet.
 
 mod charts;
 mod embedding;
@@ -22,8 +22,8 @@ use std::time::Instant;
 /// How a polycube is made.
 #[derive(Clone, Copy, Debug, PartialEq, serde::Serialize)]
 pub struct MakeOptions {
-    /// How much of the shape the polycube follows, from 0, as few corners as can be, to 1; 0.5 by default. It is the worth of a
-    /// corner against the share of the surface that looks another way than its facet.
+    /// How much of the shape the polycube follows, from 0, as few corners as can be, to 1; 0.5 by default. It is the
+    /// worth of a corner against the share of the surface that looks another way than its facet.
     pub detail: f64,
     /// Take corners away until no more than these are left, as far as the shape allows, whatever `detail` says.
     pub corners: Option<usize>,
@@ -53,7 +53,8 @@ impl MakeOptions {
 /// A polycube and its shape, with the same triangles.
 #[derive(Clone, Debug)]
 pub struct Made {
-    /// The shape as triangles, cut finer where the map needs room: the vertices of the input come first and keep their numbers.
+    /// The shape as triangles, cut finer where the map needs room: the vertices of the input come first and keep their
+    /// numbers.
     pub shape: Mesh,
     /// The polycube, on integer levels, vertex by vertex and triangle by triangle that of [`shape`](Self::shape).
     pub polycube: Mesh,
@@ -65,10 +66,10 @@ pub struct Made {
 
 /// Makes a polycube of a surface.
 ///
-/// The structure comes first: level sets of three functions on the surface, near to the coordinates, are made a valid set of loops
-/// (see ARCHITECTURE.md), and loops are taken away as long as a corner less is worth what the surface then looks another way. What is valid and
-/// of the right topology stays so with every step. The polycube is checked exactly on integers at the end: embedded, of the topology of
-/// the shape. Same input, same bytes, for any number of threads.
+/// The structure comes first: level sets of three functions on the surface, near to the coordinates, are made a valid
+/// set of loops (see ARCHITECTURE.md), and loops are taken away as long as a corner less is worth what the surface then
+/// looks another way. What is valid and of the right topology stays so with every step. The polycube is checked exactly
+/// on integers at the end: embedded, of the topology of the shape. Same input, same bytes, for any number of threads.
 ///
 /// Self-intersections of the shape do not matter. Some seconds for 20,000 triangles.
 ///
@@ -86,9 +87,9 @@ pub struct Made {
 /// ```
 ///
 /// # Errors
-/// [`ErrorKind::Option`] for options out of range; [`ErrorKind::Unsupported`] for a volume; [`ErrorKind::Mesh`] with the edge, face or
-/// vertex where the surface is not closed, oriented and manifold; [`ErrorKind::Polycube`] with a face where no structure was found or
-/// where parts of the polycube could not be kept apart; [`ErrorKind::Cancelled`].
+/// [`ErrorKind::Option`] for options out of range; [`ErrorKind::Unsupported`] for a volume; [`ErrorKind::Mesh`] with
+/// the edge, face or vertex where the surface is not closed, oriented and manifold; [`ErrorKind::Polycube`] with a face
+/// where no structure was found or where parts of the polycube could not be kept apart; [`ErrorKind::Cancelled`].
 pub fn make(shape: &Mesh, options: &MakeOptions, context: &Context) -> Result<Made> {
     options.check()?;
     let clock = Instant::now();

@@ -30,7 +30,8 @@ pub struct MakeReport {
     pub facets: usize,
     /// Handles, over all parts.
     pub genus: usize,
-    /// Mean over the surface of one minus the cosine between its normal and the direction of its facet: 0 for a polycube.
+    /// Mean over the surface of one minus the cosine between its normal and the direction of its facet: 0 for a
+    /// polycube.
     pub misfit: f64,
     /// How far the map from the shape to the polycube is from a similarity; nothing where it is folded.
     pub distortion: Option<Distortion>,

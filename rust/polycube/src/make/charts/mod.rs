@@ -32,8 +32,9 @@ pub(super) struct Charts {
 
 /// Draws the charts that loops stand for on the surface that they lie on.
 ///
-/// Every edge of the polycube becomes a path of sides of triangles. Triangles are cut where there is no room for a path, and made whole
-/// again where that can be; what stays cut is a refinement of the shape. O(n log n) for n triangles of the cut mesh.
+/// Every edge of the polycube becomes a path of sides of triangles. Triangles are cut where there is no room for a
+/// path, and made whole again where that can be; what stays cut is a refinement of the shape. O(n log n) for n
+/// triangles of the cut mesh.
 ///
 /// # Errors
 /// [`ErrorKind::Internal`] if the charts do not come out as the loops say; [`ErrorKind::Cancelled`].

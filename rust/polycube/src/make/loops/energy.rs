@@ -21,8 +21,8 @@ const SQUASHED: f64 = 0.2;
 /// What that costs beside the misfit.
 const SQUASHING: f64 = 2.0;
 
-/// One minus the cosine between normal and direction, for each unit of area, and more where the area would be squashed: the
-/// lattice is too coarse there to follow the shape.
+/// One minus the cosine between normal and direction, for each unit of area, and more where the area would be squashed:
+/// the lattice is too coarse there to follow the shape.
 fn cost(area: f64, along: f64) -> f64 {
     area - along + SQUASHING * (SQUASHED * area - along).max(0.0)
 }

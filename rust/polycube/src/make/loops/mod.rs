@@ -1,17 +1,18 @@
 //! Loops: closed curves of three kinds on a surface, whose dual is a polycube.
 //!
-//! A loop is a closed curve on which one of three functions on the surface is constant; its kind is the axis of that function.
-//! Loops of one kind never meet, loops of two kinds meet in **crossings**, and all loops cut the surface into **regions**. A
-//! region stands for a vertex of a polycube with quadrilateral faces, a crossing for one of its faces, and the part of a loop
-//! between two crossings for one of its edges. The **zones** of an axis are what the loops of its kind leave of the surface:
-//! vertices in one zone have one coordinate, and a loop says that one zone lies below another.
+//! A loop is a closed curve on which one of three functions on the surface is constant; its kind is the axis of that
+//! function. Loops of one kind never meet, loops of two kinds meet in **crossings**, and all loops cut the surface into
+//! **regions**. A region stands for a vertex of a polycube with quadrilateral faces, a crossing for one of its faces,
+//! and the part of a loop between two crossings for one of its edges. The **zones** of an axis are what the loops of
+//! its kind leave of the surface: vertices in one zone have one coordinate, and a loop says that one zone lies below
+//! another.
 //!
-//! A set of loops is **valid** if every region is a disc with three to six sides that look in different directions, and if the
-//! zones of every axis have an order. A dense set is made valid first ([`start`]); then loops are taken away as long as that
-//! pays, and only in ways that leave the set valid ([`coarsen`]). No polycube is ever repaired.
+//! A set of loops is **valid** if every region is a disc with three to six sides that look in different directions, and
+//! if the zones of every axis have an order. A dense set is made valid first ([`start`]); then loops are taken away as
+//! long as that pays, and only in ways that leave the set valid ([`coarsen`]). No polycube is ever repaired.
 //!
-//! Which sets of loops are polycubes: Snoep, Speckmann and Verbeek, *Polycubes via Dual Loops*, 2024 (arXiv 2410.16865). The
-//! search, from many level sets down to few loops, is this project's own.
+//! Which sets of loops are polycubes: Snoep, Speckmann and Verbeek, *Polycubes via Dual Loops*, 2024 (arXiv
+//! 2410.16865). The search, from many level sets down to few loops, is this project's own.
 
 pub(crate) mod arrangement;
 mod coarsen;
