@@ -15,7 +15,7 @@ fn one(folder: &Path, path: &Path) -> Result<()> {
     let report = &made.report;
     println!(
         "{name}: corners {}, facets {}, genus {}, misfit {:.4}, added {}, folded {}, angle {:.3}, \
-         {:.2} + {:.2} + {:.2} s",
+         {:.2} + {:.2} s",
         report.corners,
         report.facets,
         report.genus,
@@ -23,8 +23,7 @@ fn one(folder: &Path, path: &Path) -> Result<()> {
         report.added,
         report.folded.len(),
         report.distortion.as_ref().map_or(f64::NAN, |d| d.angle),
-        report.seconds.loops,
-        report.seconds.charts,
+        report.seconds.structure,
         report.seconds.embedding
     );
     write(&folder.join(format!("{name}.shape.obj")), &made.shape, &[])?;

@@ -15,9 +15,13 @@ use crate::context::Context;
 use crate::error::{Error, ErrorKind, Result};
 use crate::mesh::{Cells, Face, Mesh};
 use crate::structure::Surface;
+use charts::Charts;
 use embedding::Embedded;
-use loops::LoopOptions;
+use loops::{Candidate, LoopOptions};
 use std::time::Instant;
+
+/// Candidates that are embedded until one is free of folds.
+const MOST_EMBEDDED: usize = 3;
 
 /// How a polycube is made.
 #[derive(Clone, Copy, Debug, PartialEq, serde::Serialize)]
@@ -95,18 +99,56 @@ pub fn make(shape: &Mesh, options: &MakeOptions, context: &Context) -> Result<Ma
     let clock = Instant::now();
     let triangles = triangles(shape)?;
     let mut seconds = MakeSeconds::default();
-    let wanted = LoopOptions { detail: options.detail, corners: options.corners };
-    let set = loops::loops(shape.points(), &triangles, &wanted, &context.stage("loops", 0.0, 0.4))?;
-    seconds.loops = clock.elapsed().as_secs_f64();
-    let drawn = charts::charts(shape.points(), &triangles, &set, &context.stage("charts", 0.4, 0.5))?;
-    seconds.charts = clock.elapsed().as_secs_f64() - seconds.loops;
-    let embedded = embedding::embed(&drawn, &set, &context.stage("embed", 0.5, 1.0))?;
-    if embedded.polycube.structure.corners.len() != set.corners {
-        return Err(Error::new(ErrorKind::Internal, "the polycube has other corners than its loops"));
-    }
+    let candidates = draw(shape, &triangles, options, &context.stage("loops", 0.0, 0.5))?;
+    seconds.structure = clock.elapsed().as_secs_f64();
+    let embedded = embed_best(&candidates, &context.stage("embed", 0.5, 1.0))?;
     seconds.total = clock.elapsed().as_secs_f64();
-    seconds.embedding = seconds.total - seconds.loops - seconds.charts;
+    seconds.embedding = seconds.total - seconds.structure;
     finish(shape, embedded, seconds)
+}
+
+/// Sets of loops and the charts that they stand for, cheapest first: by what their labels cost and how many corners they have.
+fn draw(
+    shape: &Mesh,
+    triangles: &[[u32; 3]],
+    options: &MakeOptions,
+    context: &Context,
+) -> Result<Vec<Candidate<Charts>>> {
+    let wanted = LoopOptions { detail: options.detail, corners: options.corners };
+    loops::loops(shape.points(), triangles, &wanted, context, |set| {
+        let drawn = charts::charts(shape.points(), triangles, set, context)?;
+        Ok((drawn.cost() + wanted.price_of_corner() * set.corners as f64, drawn))
+    })
+}
+
+/// The first candidate that can be embedded without folds; if there is none, that with the fewest.
+fn embed_best(candidates: &[Candidate<Charts>], context: &Context) -> Result<Embedded> {
+    let mut best: Result<Embedded> = Err(Error::new(ErrorKind::Internal, "there is nothing to embed"));
+    let few = &candidates[..candidates.len().min(MOST_EMBEDDED)];
+    for (i, candidate) in few.iter().enumerate() {
+        let [from, to] = [i, i + 1].map(|k| k as f64 / few.len() as f64);
+        let embedded = embedding::embed(&candidate.drawn, &candidate.loops, &context.stage("embed", from, to));
+        match embedded {
+            Ok(found) if found.polycube.structure.corners.len() != candidate.loops.corners => {
+                return Err(Error::new(ErrorKind::Internal, "the polycube has other corners than its loops"));
+            }
+            Ok(found) if found.folded.is_empty() => return Ok(found),
+            Err(error) if error.kind == ErrorKind::Cancelled => return Err(error),
+            found if is_better(&found, &best) => best = found,
+            _ => {}
+        }
+    }
+    best
+}
+
+/// Whether something came out that is folded in fewer places; a first error counts more than that there was nothing.
+fn is_better(found: &Result<Embedded>, best: &Result<Embedded>) -> bool {
+    match (found, best) {
+        (Ok(f), Ok(b)) => f.folded.len() < b.folded.len(),
+        (Ok(_), Err(_)) => true,
+        (Err(_), Err(b)) => b.kind == ErrorKind::Internal,
+        (Err(_), Ok(_)) => false,
+    }
 }
 
 fn finish(shape: &Mesh, embedded: Embedded, seconds: MakeSeconds) -> Result<Made> {

@@ -9,10 +9,8 @@ use crate::structure::area_vector;
 /// Wall-clock seconds of the stages.
 #[derive(Clone, Copy, Debug, Default, PartialEq, serde::Serialize)]
 pub struct MakeSeconds {
-    /// Finding the loops.
-    pub loops: f64,
-    /// Drawing the charts.
-    pub charts: f64,
+    /// Finding the loops and drawing the charts.
+    pub structure: f64,
     /// Placing the facets and making the map one to one.
     pub embedding: f64,
     /// All of it.

@@ -9,6 +9,9 @@ use crate::mesh::{Point, Stars};
 /// its cotangents to mean anything.
 const THINNEST: f64 = 1e-6;
 
+/// The least cotangent of positive weights.
+const LEAST: f64 = 0.05;
+
 /// How many elements are handled between two looks at the context.
 pub(super) const CHUNK: usize = 1 << 13;
 
@@ -20,8 +23,23 @@ pub(super) const CHUNK: usize = 1 << 13;
 /// reproduce linear functions. What is clamped is the triangle: one thinner than [`THINNEST`],
 /// whose cotangents would run to infinity, counts as equilateral.
 pub(super) fn cotangent_weights(points: &[Point], triangles: &[[u32; 3]], context: &Context) -> Result<SparseRows> {
+    weights(points, triangles, |cotangent| cotangent, context)
+}
+
+/// The same with every cotangent within [`LEAST`] and its inverse: no weight is negative, so that convex facets are never folded
+/// (Tutte 1963), and the problem is solved on the thinnest triangles, but linear functions are not reproduced.
+pub(crate) fn positive_weights(points: &[Point], triangles: &[[u32; 3]], context: &Context) -> Result<SparseRows> {
+    weights(points, triangles, |cotangent| cotangent.clamp(LEAST, 1.0 / LEAST), context)
+}
+
+fn weights(
+    points: &[Point],
+    triangles: &[[u32; 3]],
+    bounded: impl Fn(f64) -> f64,
+    context: &Context,
+) -> Result<SparseRows> {
     let stars = Stars::new(points.len(), triangles.iter().copied());
-    let angles: Vec<_> = triangles.iter().map(|t| cotangents(t.map(|v| points[v as usize]))).collect();
+    let angles: Vec<_> = triangles.iter().map(|t| cotangents(t.map(|v| points[v as usize])).map(&bounded)).collect();
     let mut rows = SparseRows::new();
     let mut row = Vec::new();
     for v in 0..points.len() {

@@ -16,6 +16,8 @@ const GOAL: f64 = 1e-11;
 const ENOUGH: f64 = 1e-10;
 /// Relative residual that is still returned when rounding allows no better.
 const ACCEPTABLE: f64 = 1e-6;
+/// Relative residual after a run from which no further one comes back.
+const DIVERGED: f64 = 1e3;
 /// Below this cosine between shadow and residual, rounding alone says where the next direction leads: a run ends there,
 /// and the next one casts a new shadow. Symmetric polycubes come to it.
 const ORTHOGONAL: f64 = 1e-12;
@@ -35,8 +37,13 @@ pub(super) fn solve<const N: usize>(a: &SparseRows, b: &[Values<N>], context: &C
     let mut x = vec![[0.0; N]; b.len()];
     for _ in 0..RUNS {
         let residual = residual(a, b, &x);
-        if worst(&norms(&residual), &size) <= ENOUGH {
+        let left = worst(&norms(&residual), &size);
+        if left <= ENOUGH {
             return Ok(x);
+        }
+        // A NaN, too.
+        if !(left <= DIVERGED) {
+            break;
         }
         Run::new(a, &ilu, residual, size).iterate(&mut x, context)?;
     }

@@ -16,6 +16,7 @@ mod sparse;
 #[cfg(test)]
 pub(crate) mod testing;
 
+pub(crate) use cotangent::positive_weights;
 pub(crate) use harmonic::extend_harmonic;
 pub use morph::morph;
 pub(crate) use sparse::SparseRows;

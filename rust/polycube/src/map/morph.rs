@@ -1,6 +1,6 @@
 //! Fit a polycube mesh into a new structure by a Laplace problem.
 
-use super::cotangent::cotangent_weights;
+use super::cotangent::{cotangent_weights, positive_weights};
 use super::harmonic::extend_harmonic;
 use super::mean_value::mean_value_weights;
 use crate::context::Context;
@@ -23,7 +23,8 @@ use crate::mesh::{Face, Mesh, Point, Simplices};
 /// positions; asking for the displacement makes the answer *exactly* the input where nothing is to
 /// move, on thin or inverted elements, too:
 /// - a triangle thinner than 1e-6 (doubled area over longest edge squared) counts as equilateral;
-/// - negative cotangents stay, so an obtuse triangulation may overshoot its boundary a little;
+/// - negative cotangents stay, so an obtuse triangulation may overshoot its boundary a little; where triangles are so thin that
+///   rounding leaves nothing of the solution, the surface is solved with cotangents from 0.05 to 20;
 /// - an inner vertex with an inverted or flat tetrahedron around it moves as the plain mean of its
 ///   neighbours;
 /// - a vertex of no cell stays where it is, whatever `fixed` says.
@@ -66,8 +67,16 @@ fn relax_surface(
     moves: &mut [[f64; 3]],
     context: &Context,
 ) -> Result<Vec<bool>> {
+    let before = moves.to_vec();
     let weights = cotangent_weights(mesh.points(), surface, &context.stage("morph", 0.0, 0.25))?;
-    extend_harmonic(&weights, known, moves, &context.stage("morph", 0.25, 1.0))?;
+    match extend_harmonic(&weights, known, moves, &context.stage("morph", 0.25, 1.0)) {
+        Err(error) if error.kind == ErrorKind::Internal => {
+            moves.copy_from_slice(&before);
+            let weights = positive_weights(mesh.points(), surface, &context.stage("morph", 1.0, 1.0))?;
+            extend_harmonic(&weights, known, moves, &context.stage("morph", 1.0, 1.0))?;
+        }
+        done => done?,
+    }
     Ok((0..weights.len()).map(|v| !weights.range(v).is_empty()).collect())
 }
 

@@ -6,7 +6,7 @@ mod thin;
 mod trace;
 mod triangulation;
 
-use super::loops::LoopSet;
+use super::loops::{LoopSet, along, cost};
 use crate::context::Context;
 use crate::error::{Error, ErrorKind, Result};
 use crate::mesh::Point;
@@ -17,17 +17,31 @@ use triangulation::{NONE, Triangulation};
 const STIFFNESS: f64 = 0.1;
 
 /// Triangles of a surface in charts, each with a label.
-pub(super) struct Charts {
+pub(crate) struct Charts {
     /// The vertices; those of the shape come first.
-    pub(super) points: Vec<Point>,
+    pub(crate) points: Vec<Point>,
     /// The triangles, in the order of those of the shape that they are part of.
-    pub(super) triangles: Vec<[u32; 3]>,
+    pub(crate) triangles: Vec<[u32; 3]>,
     /// The chart of each triangle.
-    pub(super) chart: Vec<u32>,
+    pub(crate) chart: Vec<u32>,
     /// The label of each chart, 0 to 5.
-    pub(super) labels: Vec<u8>,
+    pub(crate) labels: Vec<u8>,
     /// A crossing of loops in each chart.
     pub(super) crossings: Vec<u32>,
+}
+
+impl Charts {
+    /// What the labels cost, as a share of the surface.
+    pub(crate) fn cost(&self) -> f64 {
+        let (mut sum, mut total) = (0.0, 0.0);
+        for (t, &chart) in self.triangles.iter().zip(&self.chart) {
+            let [a, b, c] = t.map(|v| self.points[v as usize]);
+            let normal = (b - a).cross(&(c - a));
+            sum += cost(normal.norm(), along(&normal, self.labels[chart as usize]));
+            total += normal.norm();
+        }
+        sum / f64::max(total, f64::MIN_POSITIVE)
+    }
 }
 
 /// Draws the charts that loops stand for on the surface that they lie on.
@@ -38,7 +52,7 @@ pub(super) struct Charts {
 ///
 /// # Errors
 /// [`ErrorKind::Internal`] if the charts do not come out as the loops say; [`ErrorKind::Cancelled`].
-pub(super) fn charts(points: &[Point], triangles: &[[u32; 3]], loops: &LoopSet, context: &Context) -> Result<Charts> {
+pub(crate) fn charts(points: &[Point], triangles: &[[u32; 3]], loops: &LoopSet, context: &Context) -> Result<Charts> {
     context.tick(0.0)?;
     let mut traced = trace::trace(loops, context)
         .ok_or_else(|| Error::new(ErrorKind::Internal, "the charts are not those that the loops stand for"))?;

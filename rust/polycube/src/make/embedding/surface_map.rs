@@ -2,16 +2,14 @@
 
 use crate::context::Context;
 use crate::error::Result;
-use crate::map::{SparseRows, extend_harmonic};
-use crate::mesh::{Face, Point, Stars};
+use crate::map::{extend_harmonic, positive_weights};
+use crate::mesh::{Face, Point};
 use crate::optimise::{Elements, Freedom, Scope, Settings, optimise};
 use crate::remesh::Refined;
 use crate::simplify::CornerTetrahedra;
 
 /// How often what stays folded is cut finer and tried again.
 const ROUNDS: usize = 5;
-/// The least weight of an edge in the harmonic start: positive, so that convex facets are never folded (Tutte 1963).
-const LEAST_WEIGHT: f64 = 0.05;
 
 const UNFOLD: Settings = Settings {
     theta: 0.1,
@@ -96,34 +94,9 @@ fn lay_flat(refined: &mut Refined, context: &Context) -> Result<()> {
         })
         .collect();
     let mut field: Vec<[f64; 3]> = refined.points.iter().map(|p| [p.x, p.y, p.z]).collect();
-    extend_harmonic(&weights(refined), &known, &mut field, context)?;
+    let triangles: Vec<[u32; 3]> = refined.polycube.surface.faces().iter().flat_map(Face::triangles).collect();
+    let weights = positive_weights(&refined.shape, &triangles, &context.stage("map", 0.0, 0.1))?;
+    extend_harmonic(&weights, &known, &mut field, &context.stage("map", 0.1, 1.0))?;
     refined.points = field.into_iter().map(Point::from).collect();
     Ok(())
-}
-
-/// Cotangents of the angles on the shape, none below [`LEAST_WEIGHT`].
-fn weights(refined: &Refined) -> SparseRows {
-    let triangles: Vec<[u32; 3]> = refined.polycube.surface.faces().iter().flat_map(Face::triangles).collect();
-    let stars = Stars::new(refined.points.len(), triangles.iter().copied());
-    let mut rows = SparseRows::new();
-    let mut row = Vec::new();
-    for v in 0..refined.points.len() {
-        for &t in stars.of(v) {
-            let triangle = triangles[t as usize];
-            let i = triangle.iter().position(|&u| u as usize == v).unwrap_or(0);
-            let [a, b, c] = [0, 1, 2].map(|k| triangle[(i + k) % 3]);
-            row.push((b, cotangent(&refined.shape, c, a, b)));
-            row.push((c, cotangent(&refined.shape, b, c, a)));
-        }
-        rows.push(&mut row);
-    }
-    rows
-}
-
-/// The cotangent of the angle at `at`, within bounds.
-fn cotangent(points: &[Point], at: u32, from: u32, to: u32) -> f64 {
-    let [p, a, b] = [at, from, to].map(|v| points[v as usize]);
-    let (u, w) = (a - p, b - p);
-    let area = u.cross(&w).norm();
-    if area > 0.0 { (u.dot(&w) / area).clamp(LEAST_WEIGHT, 1.0 / LEAST_WEIGHT) } else { 1.0 }
 }

@@ -11,20 +11,20 @@ use nalgebra::Vector3;
 pub(super) struct Energies(pub(super) Vec<[f64; 6]>);
 
 /// The part of a vector along the direction of a label.
-pub(in crate::make) fn along(n: &Vector3<f64>, label: u8) -> f64 {
+pub(crate) fn along(n: &Vector3<f64>, label: u8) -> f64 {
     let x = n[usize::from(label) / 2];
     if label.is_multiple_of(2) { x } else { -x }
 }
 
-/// A part of the surface that looks away from its face, with a cosine below this, is squashed on it.
-const SQUASHED: f64 = 0.2;
-/// What that costs beside the misfit.
-const SQUASHING: f64 = 2.0;
+/// The least cosine between normal and direction for which areas are taken as a projection has them.
+const STEEP: f64 = 0.3;
 
-/// One minus the cosine between normal and direction, for each unit of area, and more where the area would be squashed:
-/// the lattice is too coarse there to follow the shape.
-fn cost(area: f64, along: f64) -> f64 {
-    area - along + SQUASHING * (SQUASHED * area - along).max(0.0)
+/// What it costs to lay an area flat whose part along the direction of its face is `along`: by how much a projection would
+/// shrink it, `area / along`, as the lattice is as much too coarse there to follow the shape. Where that is no measure, as the
+/// surface looks away, it grows as fast as where it still is one.
+pub(crate) fn cost(area: f64, along: f64) -> f64 {
+    let least = STEEP * area;
+    if along > least { area * (area / along - 1.0) } else { area / STEEP - area + (least - along) / (STEEP * STEEP) }
 }
 
 impl Energies {

@@ -39,7 +39,7 @@ use crate::mesh::Point;
 use arrangement::Arrangement;
 use cut_mesh::CutMesh;
 use energy::Energies;
-pub(super) use energy::along;
+pub(crate) use energy::{along, cost};
 use field::Field;
 use moves::Moves;
 use rayon::prelude::*;
@@ -66,7 +66,12 @@ impl Default for LoopOptions {
 impl LoopOptions {
     /// The share of the surface that may look in another direction for a corner less.
     fn worth_of_corner(&self) -> f64 {
-        if self.corners.is_some() { f64::INFINITY } else { 0.02 * libm::pow(625.0, -self.detail) }
+        if self.corners.is_some() { f64::INFINITY } else { self.price_of_corner() }
+    }
+
+    /// The same without regard to how many corners shall be left.
+    pub(crate) fn price_of_corner(&self) -> f64 {
+        0.04 * libm::pow(625.0, -self.detail)
     }
 }
 
@@ -83,56 +88,71 @@ pub(crate) struct LoopSet {
     pub(crate) corners: usize,
 }
 
-/// How dense starts are made, best first: the first that are valid are coarsened, and the best outcome is taken.
-const ATTEMPTS: [Attempt; 9] = [
-    Attempt { levels: 24, reach: 2.0, smooth: 0.0 },
-    Attempt { levels: 32, reach: 2.0, smooth: 0.1 },
+/// How dense starts are made. All of the first are tried, as each suits other shapes: levels far apart find the plain structure
+/// of machine parts, close ones thin limbs. The others are for shapes where all of these fail.
+const ATTEMPTS: [Attempt; 10] = [
+    Attempt { levels: 80, reach: 2.0, smooth: 0.0 },
+    Attempt { levels: 64, reach: 2.0, smooth: 0.0 },
+    Attempt { levels: 48, reach: 0.5, smooth: 0.0 },
     Attempt { levels: 40, reach: 2.0, smooth: 0.0 },
+    Attempt { levels: 32, reach: 2.0, smooth: 0.1 },
+    Attempt { levels: 24, reach: 2.0, smooth: 0.0 },
     Attempt { levels: 24, reach: 0.5, smooth: 0.2 },
     Attempt { levels: 32, reach: 0.5, smooth: 0.4 },
     Attempt { levels: 16, reach: 0.5, smooth: 0.2 },
     Attempt { levels: 24, reach: 0.05, smooth: 0.4 },
-    Attempt { levels: 48, reach: 0.5, smooth: 0.0 },
-    Attempt { levels: 16, reach: 0.5, smooth: 0.8 },
 ];
 /// Attempts that are compared.
-const COMPARED: usize = 3;
+const COMPARED: usize = 6;
 
-/// A valid set of few loops on a closed, oriented, manifold surface.
+/// A valid set of loops, what it costs, and what came of it when that was found out.
+#[derive(Clone, Debug)]
+pub(crate) struct Candidate<T> {
+    pub(crate) cost: f64,
+    pub(crate) loops: LoopSet,
+    pub(crate) drawn: T,
+}
+
+/// Valid sets of few loops on a closed, oriented, manifold surface, cheapest first. `judge` says what a set costs.
 ///
 /// # Errors
-/// [`ErrorKind::Polycube`] with the face where no valid start was found, [`ErrorKind::Cancelled`].
-pub(crate) fn loops(
+/// [`ErrorKind::Polycube`] with the face where no valid start was found, [`ErrorKind::Cancelled`]; those of `judge`.
+pub(crate) fn loops<T: Send>(
     points: &[Point],
     triangles: &[[u32; 3]],
     options: &LoopOptions,
     context: &Context,
-) -> Result<LoopSet> {
+    judge: impl Fn(&LoopSet) -> Result<(f64, T)> + Sync,
+) -> Result<Vec<Candidate<T>>> {
     let field = Field::new(points, triangles);
+    let try_one = |&attempt: &Attempt| -> Result<std::result::Result<Candidate<T>, u32>> {
+        let loops = match few_loops(points, triangles, &field, attempt, options, context)? {
+            Ok(loops) => loops,
+            Err(face) => return Ok(Err(face)),
+        };
+        let (cost, drawn) = judge(&loops)?;
+        Ok(Ok(Candidate { cost, loops, drawn }))
+    };
     let (first, others) = ATTEMPTS.split_at(COMPARED);
-    let tried = first
-        .par_iter()
-        .map(|&attempt| try_one(points, triangles, &field, attempt, options, context))
-        .collect::<Result<Vec<_>>>()?;
-    let mut fault = NONE;
-    let mut best: Option<(f64, LoopSet)> = None;
+    let tried = first.par_iter().map(try_one).collect::<Result<Vec<_>>>()?;
+    let (mut found, mut fault) = (Vec::new(), NONE);
     for one in tried {
         match one {
-            Ok(found) if best.as_ref().is_none_or(|b| found.0 < b.0) => best = Some(found),
-            Ok(_) => {}
+            Ok(candidate) => found.push(candidate),
             Err(face) => fault = face,
         }
     }
-    for &attempt in others {
-        if best.is_some() {
+    for attempt in others {
+        if !found.is_empty() {
             break;
         }
-        match try_one(points, triangles, &field, attempt, options, context)? {
-            Ok(found) => best = Some(found),
+        match try_one(attempt)? {
+            Ok(candidate) => found.push(candidate),
             Err(face) => fault = face,
         }
     }
-    best.map(|b| b.1).ok_or_else(|| no_start(fault))
+    found.sort_by(|a, b| a.cost.total_cmp(&b.cost));
+    if found.is_empty() { Err(no_start(fault)) } else { Ok(found) }
 }
 
 fn no_start(face: u32) -> Error {
@@ -141,17 +161,15 @@ fn no_start(face: u32) -> Error {
         .remedy("refine or smooth the shape around this face, or turn the shape")
 }
 
-/// What a set of loops costs and the set, or the face where the attempt failed.
-type Tried = std::result::Result<(f64, LoopSet), u32>;
-
-fn try_one(
+/// Few loops from one dense start, or the face where the start stays invalid.
+fn few_loops(
     points: &[Point],
     triangles: &[[u32; 3]],
     field: &Field,
     attempt: Attempt,
     options: &LoopOptions,
     context: &Context,
-) -> Result<Tried> {
+) -> Result<std::result::Result<LoopSet, u32>> {
     let values = field.solve(attempt.reach, attempt.smooth / attempt.levels as f64, context)?;
     let Start { mesh, alive, fault } = start::start(points, &values, triangles, attempt.levels, context)?;
     if let Some(face) = fault {
@@ -165,8 +183,6 @@ fn try_one(
     }
     coarsen::coarsen(&mut moves, options, context)?;
     let corners = moves.corners();
-    let misfit = moves.misfit();
-    let worth = LoopOptions { corners: None, ..*options }.worth_of_corner();
     let (arrangement, zone_of_crossing) = moves.finish();
-    Ok(Ok((misfit + worth * corners as f64, LoopSet { mesh, arrangement, zone_of_crossing, corners })))
+    Ok(Ok(LoopSet { mesh, arrangement, zone_of_crossing, corners }))
 }

@@ -155,11 +155,6 @@ impl Moves {
         arcs.filter(|&h| self.arrangement.region(h) == Some((h, true))).count()
     }
 
-    /// Mean of one minus the cosine between the normal of the surface and the direction of its face.
-    pub(super) fn misfit(&self) -> f64 {
-        self.living().map(|q| self.energies.0[q as usize][self.arrangement.crossings[q as usize].label as usize]).sum()
-    }
-
     /// The crossings that are left.
     pub(super) fn living(&self) -> impl Iterator<Item = u32> + '_ {
         (0..).zip(&self.arrangement.crossings).filter(|(_, c)| c.alive).map(|(q, _)| q)

@@ -17,7 +17,9 @@ fn triangles(mesh: &Mesh) -> Vec<[u32; 3]> {
 }
 
 fn loops_of(mesh: &Mesh, options: &LoopOptions) -> LoopSet {
-    loops(mesh.points(), &triangles(mesh), options, &Context::default()).expect("there are loops")
+    let corners = |set: &LoopSet| Ok((set.corners as f64, ()));
+    let found = loops(mesh.points(), &triangles(mesh), options, &Context::default(), corners);
+    found.expect("there are loops").swap_remove(0).loops
 }
 
 fn check_set(set: &LoopSet) {
@@ -129,7 +131,7 @@ fn a_cancelled_search_stops() {
     let (_, shape) = example(Example::Ring, 1, CellKind::Triangles).unwrap();
     let context = Context::default();
     context.cancel();
-    let stopped = loops(shape.points(), &triangles(&shape), &LoopOptions::default(), &context);
+    let stopped = loops(shape.points(), &triangles(&shape), &LoopOptions::default(), &context, |_| Ok((0.0, ())));
     assert_eq!(stopped.unwrap_err().kind, ErrorKind::Cancelled);
 }
 
