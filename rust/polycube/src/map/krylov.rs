@@ -41,8 +41,7 @@ pub(super) fn solve<const N: usize>(a: &SparseRows, b: &[Values<N>], context: &C
         if left <= ENOUGH {
             return Ok(x);
         }
-        // A NaN, too.
-        if !(left <= DIVERGED) {
+        if left > DIVERGED || left.is_nan() {
             break;
         }
         Run::new(a, &ilu, residual, size).iterate(&mut x, context)?;
