@@ -29,6 +29,7 @@ mod local;
 mod optimisation;
 mod polish;
 mod region;
+mod relax;
 #[cfg(test)]
 mod tests;
 mod untangle;
@@ -36,6 +37,7 @@ mod untangle;
 pub use elements::Elements;
 pub use freedom::Freedom;
 pub use guide::{CurveGuide, Guide, SurfaceGuide, Tangent};
+pub(crate) use relax::relax;
 
 use crate::context::Context;
 use crate::error::{Error, ErrorKind, Place, Result};

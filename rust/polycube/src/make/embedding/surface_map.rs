@@ -4,7 +4,7 @@ use crate::context::Context;
 use crate::error::Result;
 use crate::map::{extend_harmonic, positive_weights};
 use crate::mesh::{Face, Point};
-use crate::optimise::{Elements, Freedom, Scope, Settings, optimise};
+use crate::optimise::{Elements, Freedom, Scope, Settings, optimise, relax};
 use crate::remesh::Refined;
 use crate::simplify::CornerTetrahedra;
 
@@ -23,7 +23,10 @@ const UNFOLD: Settings = Settings {
     strength: 0.0,
     polish_rounds: 0,
 };
-const SMOOTH: Settings = Settings { untangle_rounds: 0, improve_rounds: 2, improve_iterations: 50, ..UNFOLD };
+/// The weight of areas against angles: a map that keeps angles alone all but loses what sticks out of a facet.
+const AREAS: f64 = 0.5;
+/// Iterations of smoothing.
+const ITERATIONS: usize = 400;
 
 /// Lays every chart flat in its facet, with the borders held, then lets vertices slide along the edges. Triangles that
 /// cannot be turned the right way round are cut finer. Returns those that stay turned over.
@@ -76,7 +79,7 @@ fn smooth(refined: &mut Refined, context: &Context) -> Result<()> {
         }
     }
     let elements = Elements::tetrahedra_like(&corners.tetrahedra, &corners.rest)?;
-    optimise(&mut corners.points, &elements, &corners.freedom, &[], &SMOOTH, context)?;
+    relax(&mut corners.points, &elements, &corners.freedom, AREAS, ITERATIONS, context)?;
     corners.points.truncate(refined.points.len());
     refined.points = corners.points;
     Ok(())

@@ -22,7 +22,7 @@ const KEPT: f64 = 0.8;
 /// and of that around a vertex when it is moved with care, before the others make way.
 const KEPT_AROUND: f64 = 0.3;
 /// A vertex reaches what is no farther than this part of the bound from what it slides on.
-const ON: f64 = 0.1;
+pub(super) const ON: f64 = 0.1;
 
 /// How vertices are moved.
 #[derive(Clone, Copy, PartialEq)]
@@ -111,7 +111,7 @@ impl Fitting<'_> {
         Ok(far)
     }
 
-    fn distant_points(
+    pub(super) fn distant_points(
         &self,
         faces: &[Face],
         samples: &[Point],

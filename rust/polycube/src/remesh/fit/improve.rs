@@ -46,7 +46,8 @@ pub(crate) struct Improved {
 /// Inverted ones are first untangled with the surface held, then with the edges held, so that surface vertices do not
 /// slide past each other, from where there is no way back. Vertices of inverted hexahedra may leave corners and edges
 /// for the surface around, and so may those of poor ones where the shape has no crease. Where the shape is farther from
-/// the mesh than it shall be, vertices are put on what is cut off, as far as the hexahedra stay good.
+/// the mesh than it shall be, vertices are put on what is cut off, as far as the hexahedra stay good; where it is much
+/// farther, the mesh is made again with vertices held there from the start.
 pub(crate) fn improve(
     polycube: &Polycube,
     hexes: &mut Hexes,
@@ -77,12 +78,9 @@ pub(crate) fn improve(
     let mut far = 0.0;
     if let Aim::Within(bound) = aim {
         let settings = Settings { untangle_rounds: settings.untangle_rounds.min(LATE_ROUNDS), ..settings.clone() };
-        far = fitting.limit_chord_error(
-            &samples(&polycube.surface, shape),
-            bound,
-            &settings,
-            &context.stage("optimise", 0.8, 1.0),
-        )?;
+        let samples = samples(&polycube.surface, shape);
+        far = fitting.limit_chord_error(&samples, bound, &settings, &context.stage("optimise", 0.8, 0.9))?;
+        far = fitting.anchor(&start, (&samples, bound), far, &settings, &context.stage("optimise", 0.9, 1.0))?;
     }
     Ok(Improved { released: fitting.released, far })
 }
@@ -120,7 +118,7 @@ impl Fitting<'_> {
     }
 
     /// Passes of the optimiser, until one gains little.
-    fn passes(&mut self, settings: &Settings, context: &Context) -> Result<()> {
+    pub(super) fn passes(&mut self, settings: &Settings, context: &Context) -> Result<()> {
         let settings = Settings { untangle_rounds: settings.untangle_rounds.min(LATE_ROUNDS), ..settings.clone() };
         for pass in 0..PASSES {
             let [from, to] = [pass, pass + 1].map(|p| p as f64 / PASSES as f64);

@@ -1,5 +1,6 @@
 //! Hexahedra made to fit the shape: optimised with their surface on that of the shape, and near to it everywhere.
 
+mod anchors;
 mod chord_error;
 mod distant_points;
 mod fitting;
