@@ -107,7 +107,8 @@ pub fn make(shape: &Mesh, options: &MakeOptions, context: &Context) -> Result<Ma
     finish(shape, embedded, seconds)
 }
 
-/// Sets of loops and the charts that they stand for, cheapest first: by what their labels cost and how many corners they have.
+/// Sets of loops and the charts that they stand for, cheapest first: by what their labels cost and how many corners
+/// they have.
 fn draw(
     shape: &Mesh,
     triangles: &[[u32; 3]],

@@ -26,8 +26,9 @@ pub(super) fn cotangent_weights(points: &[Point], triangles: &[[u32; 3]], contex
     weights(points, triangles, |cotangent| cotangent, context)
 }
 
-/// The same with every cotangent within [`LEAST`] and its inverse: no weight is negative, so that convex facets are never folded
-/// (Tutte 1963), and the problem is solved on the thinnest triangles, but linear functions are not reproduced.
+/// The same with every cotangent within [`LEAST`] and its inverse: no weight is negative, so that convex facets are
+/// never folded (Tutte 1963), and the problem is solved on the thinnest triangles, but linear functions are not
+/// reproduced.
 pub(crate) fn positive_weights(points: &[Point], triangles: &[[u32; 3]], context: &Context) -> Result<SparseRows> {
     weights(points, triangles, |cotangent| cotangent.clamp(LEAST, 1.0 / LEAST), context)
 }

@@ -23,7 +23,8 @@ use crate::mesh::{Face, Mesh, Point, Simplices};
 /// positions; asking for the displacement makes the answer *exactly* the input where nothing is to
 /// move, on thin or inverted elements, too:
 /// - a triangle thinner than 1e-6 (doubled area over longest edge squared) counts as equilateral;
-/// - negative cotangents stay, so an obtuse triangulation may overshoot its boundary a little; where triangles are so thin that
+/// - negative cotangents stay, so an obtuse triangulation may overshoot its boundary a little; where triangles are so
+///   thin that
 ///   rounding leaves nothing of the solution, the surface is solved with cotangents from 0.05 to 20;
 /// - an inner vertex with an inverted or flat tetrahedron around it moves as the plain mean of its
 ///   neighbours;

@@ -12,11 +12,12 @@ use crate::mesh::Point;
 /// A few iterations that gain less end it.
 const TOLERANCE: f64 = 1e-3;
 
-/// Moves `points` to where elements differ least from what they should be, in shape and, with weight `theta` in `0..1`, in
-/// volume, in so many `iterations` at most. No element becomes inverted; if one is, nothing moves.
+/// Moves `points` to where elements differ least from what they should be, in shape and, with weight `theta` in `0..1`,
+/// in volume, in so many `iterations` at most. No element becomes inverted; if one is, nothing moves.
 ///
 /// # Errors
-/// [`ErrorKind::Option`](crate::ErrorKind::Option) for freedom on a guide; [`ErrorKind::Cancelled`](crate::ErrorKind::Cancelled).
+/// [`ErrorKind::Option`](crate::ErrorKind::Option) for freedom on a guide;
+/// [`ErrorKind::Cancelled`](crate::ErrorKind::Cancelled).
 pub(crate) fn relax(
     points: &mut [Point],
     elements: &Elements,

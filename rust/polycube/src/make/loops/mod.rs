@@ -88,8 +88,8 @@ pub(crate) struct LoopSet {
     pub(crate) corners: usize,
 }
 
-/// How dense starts are made. All of the first are tried, as each suits other shapes: levels far apart find the plain structure
-/// of machine parts, close ones thin limbs. The others are for shapes where all of these fail.
+/// How dense starts are made. All of the first are tried, as each suits other shapes: levels far apart find the plain
+/// structure of machine parts, close ones thin limbs. The others are for shapes where all of these fail.
 const ATTEMPTS: [Attempt; 10] = [
     Attempt { levels: 80, reach: 2.0, smooth: 0.0 },
     Attempt { levels: 64, reach: 2.0, smooth: 0.0 },

@@ -1,7 +1,7 @@
 //! Vertices held where a shape sticks out of its mesh.
 //!
-//! Left alone, the vertices around a bump on a facet or an edge slide down its sides, and it is cut off. The lattice as it was
-//! mapped reaches it: from there, the nearest vertex is put on the top and stays there.
+//! Left alone, the vertices around a bump on a facet or an edge slide down its sides, and it is cut off. The lattice as
+//! it was mapped reaches it: from there, the nearest vertex is put on the top and stays there.
 
 use super::chord_error::ON;
 use super::distant_points::DistantPoint;
@@ -43,8 +43,8 @@ impl<'a> Anchors<'a> {
         }
     }
 
-    /// Holds, for the distant points of the shape, farthest first, the vertex that starts nearest, unless one is held beside it, it
-    /// starts no nearer than the mesh came, or would have to leave a crease. How many were added.
+    /// Holds, for the distant points of the shape, farthest first, the vertex that starts nearest, unless one is held
+    /// beside it, it starts no nearer than the mesh came, or would have to leave a crease. How many were added.
     pub(crate) fn add(&mut self, fitting: &Fitting, found: &[DistantPoint], tolerance: f64) -> usize {
         let before = self.held.len();
         for distant in found {
@@ -78,9 +78,9 @@ impl<'a> Anchors<'a> {
 }
 
 impl Fitting<'_> {
-    /// Makes the mesh anew from where its vertices were at the `start`, with vertices held on what sticks out of it, as long as
-    /// that brings the shape nearer, which is `far` away, and no hexahedron becomes bad. How far away it is then; 0 if it is within
-    /// `bound`.
+    /// Makes the mesh anew from where its vertices were at the `start`, with vertices held on what sticks out of it, as
+    /// long as that brings the shape nearer, which is `far` away, and no hexahedron becomes bad. How far away it is
+    /// then; 0 if it is within `bound`.
     pub(super) fn anchor(
         &mut self,
         start: &[Point],
