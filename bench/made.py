@@ -1,13 +1,13 @@
 #!/usr/bin/env python3
 """Makes polycubes of plain shapes, meshes them, and writes what came out as a table.
 
-    bench/made.py [--polycube PROGRAM] [--hexes N] [--out FOLDER] [--output FILE] [SHAPE...]
+    bench/made.py [--polycube PROGRAM] [--hexes N] [--make-only] [--output FILE] [SHAPE...]
 
 SHAPE is a closed triangle mesh; by default all of $POLYCUBE_SHAPES (or ../shared/shapes beside the project) and the
 shapes of $POLYCUBE_DATA (or ../shared/data). PROGRAM is target/release/polycube. Everything is done with default
-options. Columns: corners; faces whose map is folded; share of the surface that is squashed; blocks without padding; least
-and mean scaled Jacobian; inverted hexahedra; largest edge ratio; distance to the shape in per cent of its diagonal;
-processor seconds to make and to mesh. The last rows say how many shapes meet each target.
+options. Folded is the number of faces turned over by the map, blocks are counted without padding, min and mean are of
+the scaled Jacobian, distances are in per cent of the shape's diagonal, and seconds are those of processors. The last
+lines say how many shapes meet each target.
 """
 
 import argparse
@@ -20,8 +20,10 @@ import sys
 import tempfile
 from pathlib import Path
 
-from report import Report
+from report import Report, machine
 
+# Exit codes of the command with results: done, and done with warnings.
+FINISHED = (0, 4)
 HOME = Path(__file__).resolve().parent.parent
 
 
@@ -40,31 +42,69 @@ def run(program, *arguments):
     return done.returncode, said[0], after.ru_utime - before.ru_utime
 
 
-def one(program, shape, hexes, folder):
-    """What is measured of one shape."""
+def made(program, shape, folder):
+    """What is measured of the polycube of a shape."""
     code, said, seconds = run(program, "make", "-q", shape, "-o", folder / "made")
-    row = {"make_code": code, "make_seconds": seconds}
-    if code not in (0, 4):
+    row = {"make_seconds": seconds}
+    if code not in FINISHED:
         return row | {"said": said}
-    made = json.loads((folder / "made/report.json").read_text())["report"]
-    row |= {"corners": made["corners"], "folded": len(made["folded"]), "misfit": made["misfit"]}
-    row |= {"squashed": (made["distortion"] or {}).get("squashed_share"), "added": made["added"]}
-    pair = [folder / f"made/{name}.obj" for name in ("shape", "polycube")]
+    report = json.loads((folder / "made/report.json").read_text())
+    return row | {name: report[name] for name in ("corners", "misfit")} | {"folded": len(report["folded"])}
+
+
+def meshed(program, hexes, folder):
+    """What is measured of the hexahedra of that polycube."""
+    shape, polycube = [next(folder.glob(f"made/{name}.[!l]*")) for name in ("shape", "polycube")]
     labels = folder / "made/polycube.labels"
-    options = ["--polycube", pair[1], "--labels", labels, "--hexes", hexes, "-o", folder / "mesh"]
-    code, said, seconds = run(program, "remesh", "-q", pair[0], *options)
-    row |= {"mesh_code": code, "mesh_seconds": seconds}
-    if code not in (0, 4):
+    options = ["--polycube", polycube, "--labels", labels, "--hexes", hexes, "-o", folder / "mesh"]
+    code, said, seconds = run(program, "remesh", "-q", shape, *options)
+    row = {"mesh_seconds": seconds}
+    if code not in FINISHED:
         return row | {"said": said}
     report = json.loads((folder / "mesh/report.json").read_text())
-    return row | {"report": report}
+    row |= {name: report[name] for name in ("hexes", "inverted", "min_sj", "avg_sj", "hausdorff_percent")}
+    return row | {"blocks": report["after"]["blocks"], "edge_ratio": report["edge_ratio"]["max"]}
 
 
-def measures(row):
-    """The numbers of a row, or nothing where no mesh came out."""
-    if "report" not in row:
-        return None
-    return row["report"]
+# What a column shows of a row, and how.
+COLUMNS = {
+    "corners": "{corners}",
+    "folded": "{folded}",
+    "misfit": "{misfit:.4f}",
+    "make s": "{make_seconds:.1f}",
+    "hexahedra": "{hexes}",
+    "blocks": "{blocks}",
+    "inverted": "{inverted}",
+    "min": "{min_sj:.3f}",
+    "mean": "{avg_sj:.3f}",
+    "edge ratio": "{edge_ratio:.1f}",
+    "distance %": "{hausdorff_percent:.3f}",
+    "mesh s": "{mesh_seconds:.1f}",
+}
+
+
+def cell(text, row):
+    """A cell of the table; a dash where nothing was measured."""
+    try:
+        return text.format(**row)
+    except (KeyError, TypeError, ValueError):
+        return "-"
+
+
+def summary(report, rows):
+    """How many shapes meet each target of the project."""
+    meshes = [r for r in rows if r.get("hexes")]
+    report.line(f"\nOf {len(rows)} shapes:\n")
+    report.line(f"- a polycube for {sum('corners' in r for r in rows)}, {sum(r.get('corners', 0) for r in rows)} corners")
+    report.line(f"- no folded face on {sum(r.get('folded') == 0 for r in rows)}")
+    report.line(f"- hexahedra for {len(meshes)}, none inverted on {sum(r['inverted'] == 0 for r in meshes)}")
+    report.line(f"- least scaled Jacobian .3 or more on {sum(r['min_sj'] >= 0.3 for r in meshes)}")
+    report.line(f"- distance .5 % or less on {sum(r['hausdorff_percent'] <= 0.5 for r in meshes)}")
+    if meshes:
+        least, mean = (statistics.median(r[name] for r in meshes) for name in ("min_sj", "avg_sj"))
+        report.line(f"- medians: least scaled Jacobian {least:.3f}, mean {mean:.3f}")
+    seconds = [r["make_seconds"] for r in rows]
+    report.line(f"- seconds to make: {statistics.median(seconds):.1f} in the median, {max(seconds):.1f} at most")
 
 
 def main():
@@ -72,15 +112,27 @@ def main():
     parser.add_argument("--polycube", type=Path, default=HOME / "target/release/polycube")
     parser.add_argument("--hexes", type=int, default=15000)
     parser.add_argument("--output", type=Path)
-    parser.add_argument("--out", type=Path)
+    parser.add_argument("--make-only", action="store_true")
     parser.add_argument("shapes", nargs="*", type=Path)
     options = parser.parse_args()
-    with tempfile.TemporaryDirectory() as scratch:
-        for shape in options.shapes or inputs():
-            folder = (options.out or Path(scratch)) / shape.name.removesuffix(".obj")
-            folder.mkdir(parents=True, exist_ok=True)
-            row = one(options.polycube, shape, options.hexes, folder)
-            print(json.dumps(row)[:3000])
+    shapes = options.shapes or inputs()
+    if not shapes:
+        parser.error("there are no shapes: name some, or set POLYCUBE_SHAPES")
+    report, rows = Report(options.output), []
+    report.line(machine())
+    report.table("Polycubes of plain shapes", "shape", *COLUMNS)
+    for shape in shapes:
+        with tempfile.TemporaryDirectory() as scratch:
+            folder = Path(scratch)
+            row = made(options.polycube, shape, folder)
+            if "corners" in row and not options.make_only:
+                row |= meshed(options.polycube, options.hexes, folder)
+        rows.append(row)
+        name = shape.name.removesuffix(".obj").removesuffix(".shape")
+        report.row(name, *(cell(text, row) for text in COLUMNS.values()))
+        if "said" in row:
+            report.line(f"| | {row['said']} |")
+    summary(report, rows)
 
 
 if __name__ == "__main__":
