@@ -20,7 +20,7 @@ use embedding::Embedded;
 use loops::{Candidate, LoopOptions};
 use std::time::Instant;
 
-/// Candidates that are embedded until one is free of folds.
+/// Embedded candidates with folds after which no more are tried.
 const MOST_EMBEDDED: usize = 3;
 
 /// How a polycube is made.
@@ -122,21 +122,27 @@ fn draw(
     })
 }
 
-/// The first candidate that can be embedded without folds; if there is none, that with the fewest.
+/// The first candidate that can be embedded without folds; if there is none, the least folded of the first few.
 fn embed_best(candidates: &[Candidate<Charts>], context: &Context) -> Result<Embedded> {
     let mut best: Result<Embedded> = Err(Error::new(ErrorKind::Internal, "there is nothing to embed"));
-    let few = &candidates[..candidates.len().min(MOST_EMBEDDED)];
-    for (i, candidate) in few.iter().enumerate() {
-        let [from, to] = [i, i + 1].map(|k| k as f64 / few.len() as f64);
-        let embedded = embedding::embed(&candidate.drawn, &candidate.loops, &context.stage("embed", from, to));
-        match embedded {
+    let mut embedded = 0;
+    for (i, candidate) in candidates.iter().enumerate() {
+        let [from, to] = [i, i + 1].map(|k| k as f64 / candidates.len() as f64);
+        match embedding::embed(&candidate.drawn, &candidate.loops, &context.stage("embed", from, to)) {
             Ok(found) if found.polycube.structure.corners.len() != candidate.loops.corners => {
                 return Err(Error::new(ErrorKind::Internal, "the polycube has other corners than its loops"));
             }
             Ok(found) if found.folded.is_empty() => return Ok(found),
             Err(error) if error.kind == ErrorKind::Cancelled => return Err(error),
-            found if is_better(&found, &best) => best = found,
-            _ => {}
+            found => {
+                embedded += usize::from(found.is_ok());
+                if is_better(&found, &best) {
+                    best = found;
+                }
+            }
+        }
+        if embedded == MOST_EMBEDDED {
+            break;
         }
     }
     best
