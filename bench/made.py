@@ -13,14 +13,13 @@ lines say how many shapes meet each target.
 import argparse
 import json
 import os
-import resource
 import statistics
 import subprocess
 import sys
 import tempfile
 from pathlib import Path
 
-from report import Report, machine
+from report import Report, machine, processor_time
 
 # Exit codes of the command with results: done, and done with warnings.
 FINISHED = (0, 4)
@@ -35,11 +34,11 @@ def inputs():
 
 def run(program, *arguments):
     """Exit code, last line of what was said, processor seconds."""
-    before = resource.getrusage(resource.RUSAGE_CHILDREN)
+    before = processor_time()
     done = subprocess.run([str(program), *map(str, arguments)], capture_output=True, text=True)
-    after = resource.getrusage(resource.RUSAGE_CHILDREN)
+    seconds = processor_time() - before
     said = (done.stderr.strip() or done.stdout.strip()).splitlines()[-1:] or [""]
-    return done.returncode, said[0], after.ru_utime - before.ru_utime
+    return done.returncode, said[0], seconds
 
 
 def made(program, shape, folder):

@@ -27,7 +27,7 @@ const MOST_EMBEDDED: usize = 3;
 #[derive(Clone, Copy, Debug, PartialEq, serde::Serialize)]
 pub struct MakeOptions {
     /// How much of the shape the polycube follows, from 0, as few corners as can be, to 1; 0.5 by default. It is the
-    /// worth of a corner against the share of the surface that looks another way than its facet.
+    /// worth of a corner against how much of the surface its facets shrink.
     pub detail: f64,
     /// Take corners away until no more than these are left, as far as the shape allows, whatever `detail` says.
     pub corners: Option<usize>,
@@ -124,8 +124,7 @@ fn draw(
 
 /// The first candidate that can be embedded without folds; if there is none, the least folded of the first few.
 fn embed_best(candidates: &[Candidate<Charts>], context: &Context) -> Result<Embedded> {
-    let mut best: Result<Embedded> = Err(Error::new(ErrorKind::Internal, "there is nothing to embed"));
-    let mut embedded = 0;
+    let (mut folded, mut refused): (Vec<Embedded>, Option<Error>) = (Vec::new(), None);
     for (i, candidate) in candidates.iter().enumerate() {
         let [from, to] = [i, i + 1].map(|k| k as f64 / candidates.len() as f64);
         match embedding::embed(&candidate.drawn, &candidate.loops, &context.stage("embed", from, to)) {
@@ -133,29 +132,16 @@ fn embed_best(candidates: &[Candidate<Charts>], context: &Context) -> Result<Emb
                 return Err(Error::new(ErrorKind::Internal, "the polycube has other corners than its loops"));
             }
             Ok(found) if found.folded.is_empty() => return Ok(found),
+            Ok(found) => folded.push(found),
             Err(error) if error.kind == ErrorKind::Cancelled => return Err(error),
-            found => {
-                embedded += usize::from(found.is_ok());
-                if is_better(&found, &best) {
-                    best = found;
-                }
-            }
+            Err(error) => refused = refused.or(Some(error)),
         }
-        if embedded == MOST_EMBEDDED {
+        if folded.len() == MOST_EMBEDDED {
             break;
         }
     }
-    best
-}
-
-/// Whether something came out that is folded in fewer places; a first error counts more than that there was nothing.
-fn is_better(found: &Result<Embedded>, best: &Result<Embedded>) -> bool {
-    match (found, best) {
-        (Ok(f), Ok(b)) => f.folded.len() < b.folded.len(),
-        (Ok(_), Err(_)) => true,
-        (Err(_), Err(b)) => b.kind == ErrorKind::Internal,
-        (Err(_), Ok(_)) => false,
-    }
+    let best = folded.into_iter().min_by_key(|found| found.folded.len());
+    best.ok_or_else(|| refused.unwrap_or_else(|| Error::new(ErrorKind::Internal, "there is nothing to embed")))
 }
 
 fn finish(shape: &Mesh, embedded: Embedded, seconds: MakeSeconds) -> Result<Made> {

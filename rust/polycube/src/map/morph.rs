@@ -68,11 +68,9 @@ fn relax_surface(
     moves: &mut [[f64; 3]],
     context: &Context,
 ) -> Result<Vec<bool>> {
-    let before = moves.to_vec();
     let weights = cotangent_weights(mesh.points(), surface, &context.stage("morph", 0.0, 0.25))?;
     match extend_harmonic(&weights, known, moves, &context.stage("morph", 0.25, 1.0)) {
         Err(error) if error.kind == ErrorKind::Internal => {
-            moves.copy_from_slice(&before);
             let weights = positive_weights(mesh.points(), surface, &context.stage("morph", 1.0, 1.0))?;
             extend_harmonic(&weights, known, moves, &context.stage("morph", 1.0, 1.0))?;
         }

@@ -9,7 +9,8 @@ mod triangulation;
 use super::loops::{LoopSet, along, cost};
 use crate::context::Context;
 use crate::error::{Error, ErrorKind, Result};
-use crate::mesh::Point;
+use crate::mesh::{Face, Point};
+use crate::structure::area_vector;
 use nalgebra::Vector3;
 use triangulation::{NONE, Triangulation};
 
@@ -17,26 +18,25 @@ use triangulation::{NONE, Triangulation};
 const STIFFNESS: f64 = 0.1;
 
 /// Triangles of a surface in charts, each with a label.
-pub(crate) struct Charts {
+pub(super) struct Charts {
     /// The vertices; those of the shape come first.
-    pub(crate) points: Vec<Point>,
+    pub(super) points: Vec<Point>,
     /// The triangles, in the order of those of the shape that they are part of.
-    pub(crate) triangles: Vec<[u32; 3]>,
+    pub(super) triangles: Vec<[u32; 3]>,
     /// The chart of each triangle.
-    pub(crate) chart: Vec<u32>,
+    pub(super) chart: Vec<u32>,
     /// The label of each chart, 0 to 5.
-    pub(crate) labels: Vec<u8>,
+    pub(super) labels: Vec<u8>,
     /// A crossing of loops in each chart.
     pub(super) crossings: Vec<u32>,
 }
 
 impl Charts {
     /// What the labels cost, as a share of the surface.
-    pub(crate) fn cost(&self) -> f64 {
+    pub(super) fn cost(&self) -> f64 {
         let (mut sum, mut total) = (0.0, 0.0);
         for (t, &chart) in self.triangles.iter().zip(&self.chart) {
-            let [a, b, c] = t.map(|v| self.points[v as usize]);
-            let normal = (b - a).cross(&(c - a));
+            let normal = area_vector(&self.points, &Face::Triangle(*t));
             sum += cost(normal.norm(), along(&normal, self.labels[chart as usize]));
             total += normal.norm();
         }
@@ -52,7 +52,7 @@ impl Charts {
 ///
 /// # Errors
 /// [`ErrorKind::Internal`] if the charts do not come out as the loops say; [`ErrorKind::Cancelled`].
-pub(crate) fn charts(points: &[Point], triangles: &[[u32; 3]], loops: &LoopSet, context: &Context) -> Result<Charts> {
+pub(super) fn charts(points: &[Point], triangles: &[[u32; 3]], loops: &LoopSet, context: &Context) -> Result<Charts> {
     context.tick(0.0)?;
     let mut traced = trace::trace(loops, context)
         .ok_or_else(|| Error::new(ErrorKind::Internal, "the charts are not those that the loops stand for"))?;

@@ -11,7 +11,7 @@ use nalgebra::Vector3;
 pub(super) struct Energies(pub(super) Vec<[f64; 6]>);
 
 /// The part of a vector along the direction of a label.
-pub(crate) fn along(n: &Vector3<f64>, label: u8) -> f64 {
+pub(in crate::make) fn along(n: &Vector3<f64>, label: u8) -> f64 {
     let x = n[usize::from(label) / 2];
     if label.is_multiple_of(2) { x } else { -x }
 }
@@ -22,7 +22,7 @@ const STEEP: f64 = 0.3;
 /// What it costs to lay an area flat whose part along the direction of its face is `along`: by how much a projection
 /// would shrink it, `area / along`, as the lattice is as much too coarse there to follow the shape. Where that is no
 /// measure, as the surface looks away, it grows as fast as where it still is one.
-pub(crate) fn cost(area: f64, along: f64) -> f64 {
+pub(in crate::make) fn cost(area: f64, along: f64) -> f64 {
     let least = STEEP * area;
     if along > least { area * (area / along - 1.0) } else { area / STEEP - area + (least - along) / (STEEP * STEEP) }
 }

@@ -39,7 +39,7 @@ use crate::mesh::Point;
 use arrangement::Arrangement;
 use cut_mesh::CutMesh;
 use energy::Energies;
-pub(crate) use energy::{along, cost};
+pub(super) use energy::{along, cost};
 use field::Field;
 use moves::Moves;
 use rayon::prelude::*;
@@ -64,7 +64,7 @@ impl Default for LoopOptions {
 }
 
 impl LoopOptions {
-    /// The share of the surface that may look in another direction for a corner less.
+    /// By how much more the labels may [`cost`], as a share of the surface, for a corner less.
     fn worth_of_corner(&self) -> f64 {
         if self.corners.is_some() { f64::INFINITY } else { self.price_of_corner() }
     }
@@ -134,25 +134,17 @@ pub(crate) fn loops<T: Send>(
         Ok(Ok(Candidate { cost, loops, drawn }))
     };
     let (first, others) = ATTEMPTS.split_at(COMPARED);
-    let tried = first.par_iter().map(try_one).collect::<Result<Vec<_>>>()?;
-    let (mut found, mut fault) = (Vec::new(), NONE);
-    for one in tried {
-        match one {
-            Ok(candidate) => found.push(candidate),
-            Err(face) => fault = face,
-        }
-    }
+    let mut tried = first.par_iter().map(try_one).collect::<Result<Vec<_>>>()?;
     for attempt in others {
-        if !found.is_empty() {
+        if tried.iter().any(|one| one.is_ok()) {
             break;
         }
-        match try_one(attempt)? {
-            Ok(candidate) => found.push(candidate),
-            Err(face) => fault = face,
-        }
+        tried.push(try_one(attempt)?);
     }
+    let fault = tried.iter().filter_map(|one| one.as_ref().err()).next_back().copied();
+    let mut found: Vec<_> = tried.into_iter().flatten().collect();
     found.sort_by(|a, b| a.cost.total_cmp(&b.cost));
-    if found.is_empty() { Err(no_start(fault)) } else { Ok(found) }
+    if found.is_empty() { Err(no_start(fault.unwrap_or(NONE))) } else { Ok(found) }
 }
 
 fn no_start(face: u32) -> Error {

@@ -25,6 +25,8 @@ pub(crate) struct Anchors<'a> {
     start: &'a [Point],
     faces: &'a [Face],
     faces_at: Stars,
+    /// The vertices that have faces.
+    surface: Vec<u32>,
     held: Vec<(u32, Point)>,
     /// Vertices of faces that have a held one.
     taken: Vec<bool>,
@@ -33,14 +35,9 @@ pub(crate) struct Anchors<'a> {
 impl<'a> Anchors<'a> {
     /// None yet, for a mesh with these boundary faces, which starts from these places.
     pub(crate) fn new(start: &'a [Point], faces: &'a [Face]) -> Self {
-        let quads = faces.iter().map(|f| [0, 1, 2, 3].map(|k| f.vertices()[k % f.vertices().len()]));
-        Self {
-            start,
-            faces,
-            faces_at: Stars::new(start.len(), quads),
-            held: Vec::new(),
-            taken: vec![false; start.len()],
-        }
+        let faces_at = Stars::new(start.len(), faces.iter().map(|f| f.vertices().iter().copied()));
+        let surface = (0..start.len() as u32).filter(|&v| !faces_at.of(v as usize).is_empty()).collect();
+        Self { start, faces, faces_at, surface, held: Vec::new(), taken: vec![false; start.len()] }
     }
 
     /// Holds, for the distant points of the shape, farthest first, the vertex that starts nearest, unless one is held
@@ -50,7 +47,8 @@ impl<'a> Anchors<'a> {
         for distant in found {
             let Some(v) = self.nearest(&distant.at) else { continue };
             let (from, carrier) = (self.start[v as usize], fitting.hexes.carriers[v as usize]);
-            let may = fitting.slides_through(v, &distant.at, tolerance) || fitting.sliding.is_smooth(carrier, &from);
+            let may =
+                fitting.guide_through(v, &distant.at, tolerance).is_some() || fitting.sliding.is_smooth(carrier, &from);
             if self.taken[v as usize] || (from - distant.at).norm() >= distant.distance || !may {
                 continue;
             }
@@ -63,9 +61,8 @@ impl<'a> Anchors<'a> {
     }
 
     fn nearest(&self, at: &Point) -> Option<u32> {
-        let distance = |v: &u32| (self.start[*v as usize] - at).norm_squared();
-        let surface = self.faces.iter().flat_map(|f| f.vertices().to_vec());
-        surface.min_by(|a, b| distance(a).total_cmp(&distance(b)))
+        let distance = |v: u32| (self.start[v as usize] - at).norm_squared();
+        self.surface.iter().copied().min_by(|&a, &b| distance(a).total_cmp(&distance(b)))
     }
 
     /// Puts the held vertices in their places and keeps them there.
@@ -132,13 +129,5 @@ impl Fitting<'_> {
         self.run(&inside, &untangling, context)?;
         self.run(&self.freedom.clone(), &untangling, context)?;
         self.passes(settings, context)
-    }
-
-    /// Whether what a vertex slides on passes through a point.
-    fn slides_through(&self, v: u32, at: &Point, tolerance: f64) -> bool {
-        match self.freedom[v as usize] {
-            Freedom::Guided(g) => (self.guides[g as usize].contact(at).point - at).norm() <= tolerance,
-            _ => false,
-        }
     }
 }

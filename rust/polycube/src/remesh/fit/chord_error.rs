@@ -151,13 +151,8 @@ impl Fitting<'_> {
         let mut corners: Vec<u32> = face.vertices().to_vec();
         let distance = |v: u32| (self.hexes.mesh.points()[v as usize] - at).norm();
         corners.sort_by(|a, b| distance(*a).total_cmp(&distance(*b)));
-        let guide = |v: u32| match self.freedom[v as usize] {
-            Freedom::Guided(g) => {
-                Some(self.guides[g as usize]).filter(|g| (g.contact(at).point - at).norm() <= tolerance)
-            }
-            _ => None,
-        };
-        let Some((v, guide)) = corners.into_iter().find_map(|v| Some((v as usize, guide(v)?))) else { return false };
+        let through = |v: u32| Some((v as usize, self.guide_through(v, at, tolerance)?));
+        let Some((v, guide)) = corners.into_iter().find_map(through) else { return false };
         let (from, least) = (self.hexes.mesh.points()[v], KEPT_AROUND * self.worst_of(around.of(v)));
         for &part in pull.parts() {
             self.hexes.mesh.points_mut()[v] = guide.contact(&from.lerp(at, part)).point;

@@ -27,7 +27,7 @@ pub(crate) struct Fitting<'a> {
     pub(crate) released: usize,
 }
 
-impl Fitting<'_> {
+impl<'a> Fitting<'a> {
     /// Whether many hexahedra are inverted.
     pub(crate) fn is_hopeless(&self) -> bool {
         self.hexes.quality().inverted as f64 > HOPELESS * self.hexes.cells().len() as f64
@@ -42,6 +42,12 @@ impl Fitting<'_> {
                 *point = guides[*g as usize].contact(point).point;
             }
         });
+    }
+
+    /// What a vertex slides on, if that passes no farther from a point than `tolerance`.
+    pub(crate) fn guide_through(&self, v: u32, at: &Point, tolerance: f64) -> Option<&'a dyn Guide> {
+        let Freedom::Guided(g) = self.freedom[v as usize] else { return None };
+        Some(self.guides[g as usize]).filter(|g| (g.contact(at).point - at).norm() <= tolerance)
     }
 
     /// One optimisation; how many hexahedra are inverted after it.
