@@ -96,7 +96,7 @@ impl Fitting<'_> {
                 break;
             }
             let found = self.distant_points(&faces, samples, bound, &context)?;
-            let before = (self.hexes.mesh.points().to_vec(), self.freedom.clone());
+            let before = (self.hexes.mesh.points().to_vec(), self.freedom.clone(), self.released);
             if anchors.add(self, &found, ON * bound) == 0 {
                 break;
             }
@@ -104,7 +104,7 @@ impl Fitting<'_> {
             let left = self.limit_chord_error(samples, bound, settings, &context)?;
             if left > LEFT * far || self.hexes.soundness().worst < SOUND.min(worst) {
                 self.hexes.mesh.points_mut().copy_from_slice(&before.0);
-                self.freedom = before.1;
+                (self.freedom, self.released) = (before.1, before.2);
                 break;
             }
             far = left;
@@ -121,6 +121,7 @@ impl Fitting<'_> {
         context: &Context,
     ) -> Result<()> {
         self.freedom = self.sliding.freedoms(&self.hexes.carriers, Hold::Corners);
+        self.released = 0;
         self.hexes.mesh.points_mut().copy_from_slice(start);
         anchors.hold(self.hexes.mesh.points_mut(), &mut self.freedom);
         self.elements = Elements::fair_boxes_like(self.hexes.cells(), self.hexes.mesh.points(), SMOOTHING)?;
