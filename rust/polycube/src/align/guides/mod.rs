@@ -21,7 +21,7 @@ use std::collections::BTreeSet;
 /// use polycube::align::{Guides, Symmetry};
 /// use polycube::mesh::CellKind;
 /// use polycube::simplify::simplify;
-/// use polycube::{Context, Input, AlignOptions};
+/// use polycube::{Context, Input, SimplifyOptions};
 ///
 /// // Seed 0: every part of the example is where symmetry has it.
 /// let (cube, shape) = example(Example::CubeSpikes, 0, CellKind::Quads)?;
@@ -29,7 +29,7 @@ use std::collections::BTreeSet;
 /// // The facet that holds the first boundary face must not move: what a host has as a selection.
 /// let guides = Guides { fixed_faces: vec![0], symmetry: vec![Symmetry { axis: 0, at: 0.0 }], ..Guides::default() };
 ///
-/// let guided = simplify(&input, &AlignOptions { guides, ..AlignOptions::default() }, &Context::default())?;
+/// let guided = simplify(&input, &SimplifyOptions { guides, ..SimplifyOptions::default() }, &Context::default())?;
 /// assert!(guided.report.valid);
 /// # Ok::<(), polycube::Error>(())
 /// ```

@@ -104,9 +104,8 @@ pub struct Proof {
 /// e edges, up to 1000 of them; for larger structures only the lengths of edges are propagated. Exponential after that.
 ///
 /// ```
-/// use polycube::align::prove::prove;
 /// use polycube::layout::Objective;
-/// use polycube::align::ranks::Ranks;
+/// use polycube::parts::{Ranks, prove};
 /// use polycube::generate::{Cuboid, Voxels};
 /// use polycube::mesh::CellKind;
 /// use polycube::structure::{Polycube, Tolerance};

@@ -32,7 +32,7 @@ use sites::Sites;
 /// 2^26 points; [`ErrorKind::Cancelled`](crate::ErrorKind::Cancelled).
 ///
 /// ```
-/// use polycube::{Context, align::neighbours::neighbours};
+/// use polycube::{Context, parts::neighbours};
 ///
 /// let line = [[0, 0, 0], [9, 9, 9], [4, 4, 4]];
 /// assert_eq!(neighbours(&line, &Context::default())?, [[0, 2], [1, 2]]);
