@@ -15,7 +15,7 @@ use crate::context::Context;
 use crate::error::{Error, ErrorKind, Result};
 use crate::mesh::{Cells, Face, Mesh};
 use crate::structure::Surface;
-use charts::Charts;
+use charts::ChartedSurface;
 use embedding::Embedded;
 use loops::{Candidate, LoopOptions};
 use std::time::Instant;
@@ -114,7 +114,7 @@ fn draw(
     triangles: &[[u32; 3]],
     options: &MakeOptions,
     context: &Context,
-) -> Result<Vec<Candidate<Charts>>> {
+) -> Result<Vec<Candidate<ChartedSurface>>> {
     let wanted = LoopOptions { detail: options.detail, corners: options.corners };
     loops::loops(shape.points(), triangles, &wanted, context, |set| {
         let drawn = charts::charts(shape.points(), triangles, set, context)?;
@@ -123,7 +123,7 @@ fn draw(
 }
 
 /// The first candidate that can be embedded without folds; if there is none, the least folded of the first few.
-fn embed_best(candidates: &[Candidate<Charts>], context: &Context) -> Result<Embedded> {
+fn embed_best(candidates: &[Candidate<ChartedSurface>], context: &Context) -> Result<Embedded> {
     let (mut folded, mut refused): (Vec<Embedded>, Option<Error>) = (Vec::new(), None);
     for (i, candidate) in candidates.iter().enumerate() {
         let [from, to] = [i, i + 1].map(|k| k as f64 / candidates.len() as f64);

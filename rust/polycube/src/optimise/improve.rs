@@ -24,7 +24,7 @@ pub(super) fn score(census: &Census) -> f64 {
 }
 
 /// The states that rounds of improvement led to.
-pub(super) struct Improved {
+pub(super) struct BestPoints {
     /// The best one after a round.
     pub(super) best: Vec<Point>,
     /// The best one whose worst quality is not below that of the input.
@@ -38,9 +38,9 @@ pub(super) fn improve(
     points: &[Point],
     settings: &Settings,
     context: &Context,
-) -> Result<Improved> {
+) -> Result<BestPoints> {
     let start = problem.assembly.census(points);
-    let mut improved = Improved { best: points.to_vec(), safe: points.to_vec() };
+    let mut improved = BestPoints { best: points.to_vec(), safe: points.to_vec() };
     let (mut best, mut safe) = (f64::NEG_INFINITY, score(&start));
     let mut points = points.to_vec();
     let limits = Limits { iterations: settings.improve_iterations, tolerance: TOLERANCE };

@@ -78,7 +78,7 @@ fn first_factor(d: &[Vector3<f64>], scales: &[f64]) -> f64 {
 
 /// A place with its energy and gradient.
 #[derive(Clone)]
-struct State {
+struct Iterate {
     points: Vec<Point>,
     energy: f64,
     gradient: Field,
@@ -86,10 +86,10 @@ struct State {
 
 /// Goes along `d` to a better state; none when there is none within rounding.
 fn search(
-    from: &State,
+    from: &Iterate,
     d: &[Vector3<f64>],
     evaluate: &mut impl FnMut(&[Point], &mut [Vector3<f64>]) -> Result<f64>,
-) -> Result<Option<State>> {
+) -> Result<Option<Iterate>> {
     let slope = dot(&from.gradient, d);
     if slope.is_nan() || slope >= 0.0 {
         return Ok(None);
@@ -130,7 +130,7 @@ pub(super) fn minimise(
 ) -> Result<Outcome> {
     let mut gradient = vec![Vector3::zeros(); points.len()];
     let energy = evaluate(points, &mut gradient)?;
-    let mut state = State { points: points.clone(), energy, gradient };
+    let mut state = Iterate { points: points.clone(), energy, gradient };
     let mut outcome = Outcome { energies: vec![energy] };
     let mut pairs = VecDeque::new();
     while outcome.energies.len() <= limits.iterations && state.energy.is_finite() {
@@ -153,7 +153,7 @@ pub(super) fn minimise(
     Ok(outcome)
 }
 
-fn remember(pairs: &mut VecDeque<Pair>, from: &State, to: &State, scales: &[f64]) {
+fn remember(pairs: &mut VecDeque<Pair>, from: &Iterate, to: &Iterate, scales: &[f64]) {
     let step = paired(&to.points, &from.points, |a, b| a - b);
     let change = paired(&to.gradient, &from.gradient, |a, b| a - b);
     let product = dot(&step, &change);

@@ -5,7 +5,7 @@ use super::elements::Elements;
 use super::freedom::{Constraints, Freedom};
 use super::optimisation::Optimisation;
 use super::region::{Region, Room, regions};
-use super::untangle::{Effort, untangle_all};
+use super::untangle::{Untangling, untangle_all};
 use crate::context::Context;
 use crate::error::Result;
 use crate::mesh::Point;
@@ -56,10 +56,10 @@ fn untangle_regions(
 ) -> Result<()> {
     let part =
         |i: usize| context.stage("untangle", i as f64 / regions.len() as f64, (i + 1) as f64 / regions.len() as f64);
-    let effort = Effort { patience: PATIENCE, ..Effort::new(settings) };
+    let untangling = Untangling { patience: PATIENCE, ..Untangling::new(settings) };
     let (elements, constraints) = (problem.elements, &problem.constraints);
     let solve = |(i, region)| {
-        LocalProblem::new(elements, constraints, region).untangled(constraints, points, &effort, &part(i))
+        LocalProblem::new(elements, constraints, region).untangled(constraints, points, &untangling, &part(i))
     };
     let solved = regions.par_iter().enumerate().map(solve).collect::<Result<Vec<_>>>()?;
     for (iterations, moves) in solved {
@@ -96,7 +96,7 @@ impl LocalProblem {
         mut self,
         constraints: &Constraints,
         points: &[Point],
-        effort: &Effort,
+        untangling: &Untangling,
         context: &Context,
     ) -> Result<(usize, Vec<(u32, Point)>)> {
         let mut points: Vec<Point> = self.vertices.iter().map(|&v| points[v as usize]).collect();
@@ -105,7 +105,7 @@ impl LocalProblem {
         constraints.project(&mut points);
         let mut problem = Optimisation::new(&self.elements, constraints, points.len());
         let before = problem.assembly.census(&points).inverted;
-        untangle_all(&mut problem, &mut points, effort, context)?;
+        untangle_all(&mut problem, &mut points, untangling, context)?;
         let better = problem.assembly.census(&points).inverted < before;
         let moves = self.vertices.into_iter().zip(points).zip(&self.freedom);
         let moves = moves.filter(|(_, freedom)| better && **freedom != Freedom::Fixed).map(|(to, _)| to).collect();

@@ -43,9 +43,9 @@ use crate::context::Context;
 use crate::error::{Error, ErrorKind, Place, Result};
 use crate::mesh::Point;
 use freedom::Constraints;
-use improve::{Improved, improve};
+use improve::{BestPoints, improve};
 use optimisation::Optimisation;
-use untangle::Effort;
+use untangle::Untangling;
 
 /// What moves to untangle a mesh.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -202,7 +202,7 @@ fn untangle(
         }
     }
     let start = points.clone();
-    untangle::untangle_all(problem, points, &Effort::new(settings), &context.stage("untangle", 0.2, 1.0))?;
+    untangle::untangle_all(problem, points, &Untangling::new(settings), &context.stage("untangle", 0.2, 1.0))?;
     let left = problem.assembly.census(points).inverted;
     if left > before {
         points.copy_from_slice(&start);
@@ -215,7 +215,7 @@ fn untangle(
 /// good again; only where it does not, the best state with a worst quality as in `points` is taken.
 fn raise(problem: &mut Optimisation, points: &mut Vec<Point>, settings: &Settings, context: &Context) -> Result<()> {
     let least = problem.assembly.census(points).worst;
-    let Improved { best, safe } = improve(problem, points, settings, &context.stage("improve", 0.4, 0.9))?;
+    let BestPoints { best, safe } = improve(problem, points, settings, &context.stage("improve", 0.4, 0.9))?;
     let fair = improve::score(&problem.assembly.census(&safe));
     for (state, part) in [(best, 0.9), (safe, 0.95)] {
         *points = state;

@@ -12,13 +12,13 @@ use crate::mesh::Point;
 const FIRST_EPSILON: [f64; 2] = [0.01, 1.0];
 /// Where ε ends: as good as the true energy.
 const LEAST_EPSILON: f64 = 1e-10;
-/// See [`Effort::patience`].
+/// See [`Untangling::patience`].
 const SLOW: f64 = 0.7;
 /// A few iterations that gain less end the round.
 const TOLERANCE: f64 = 1e-3;
 
-/// How hard to try.
-pub(super) struct Effort {
+/// How an untangling goes about it.
+pub(super) struct Untangling {
     /// Weight of equal volumes against similar shapes.
     pub(super) theta: f64,
     /// Most rounds.
@@ -32,7 +32,7 @@ pub(super) struct Effort {
     pub(super) patience: usize,
 }
 
-impl Effort {
+impl Untangling {
     /// All rounds of the settings.
     pub(super) fn new(settings: &Settings) -> Self {
         let Settings { theta, untangle_rounds, untangle_iterations, least_gain, .. } = *settings;
@@ -45,17 +45,17 @@ impl Effort {
 pub(super) fn untangle_all(
     problem: &mut Optimisation,
     points: &mut Vec<Point>,
-    effort: &Effort,
+    untangling: &Untangling,
     context: &Context,
 ) -> Result<bool> {
-    let limits = Limits { iterations: effort.iterations, tolerance: TOLERANCE };
+    let limits = Limits { iterations: untangling.iterations, tolerance: TOLERANCE };
     // Few and slight inversions need not soften the energy of the whole mesh.
     let least = problem.assembly.census(points).least;
     let mut epsilon = (2.0 * least.abs()).clamp(FIRST_EPSILON[0], FIRST_EPSILON[1]);
     let mut counts = Vec::new();
-    for round in 0..effort.rounds {
-        context.tick(round as f64 / effort.rounds as f64)?;
-        let law = Law::Regularised { theta: effort.theta, epsilon };
+    for round in 0..untangling.rounds {
+        context.tick(round as f64 / untangling.rounds as f64)?;
+        let law = Law::Regularised { theta: untangling.theta, epsilon };
         let gain = problem.descend(points, &law, limits, context)?;
         problem.constraints.project(points);
         let census = problem.assembly.census(points);
@@ -63,10 +63,10 @@ pub(super) fn untangle_all(
             return Ok(true);
         }
         counts.push(census.inverted);
-        if round >= effort.patience && census.inverted as f64 > SLOW * counts[round - effort.patience] as f64 {
+        if round >= untangling.patience && census.inverted as f64 > SLOW * counts[round - untangling.patience] as f64 {
             break;
         }
-        epsilon = next_epsilon(epsilon, census.least, gain.clamp(effort.least_gain, 1.0));
+        epsilon = next_epsilon(epsilon, census.least, gain.clamp(untangling.least_gain, 1.0));
     }
     Ok(false)
 }

@@ -1,7 +1,7 @@
 //! How many blocks and faces every completion of a partial order has at least. The proof is in the [parent](super).
 
 use super::clauses::Rules;
-use super::grid::{Classes, Grid, Known, trace};
+use super::grid::{Classes, FacetGrid, Known, trace};
 use super::outline::{Line, Outline};
 use super::relations::{Pairs, Relations};
 use crate::structure::Structure;
@@ -24,7 +24,7 @@ pub(super) struct Bound {
 struct Sketch<'a> {
     known: Known<'a>,
     outlines: &'a [Outline],
-    grids: Vec<Grid>,
+    grids: Vec<FacetGrid>,
 }
 
 impl Bound {
@@ -48,7 +48,7 @@ impl Bound {
     pub(super) fn least(&self, rules: &Rules, relations: &Relations) -> Least {
         let known = Known { pairs: &rules.pairs, relations };
         let lines = self.lines(known);
-        let grids = self.outlines.iter().zip(&lines).map(|(o, l)| Grid::new(known, o, l)).collect();
+        let grids = self.outlines.iter().zip(&lines).map(|(o, l)| FacetGrid::new(known, o, l)).collect();
         Sketch { known, outlines: &self.outlines, grids }.count()
     }
 

@@ -118,7 +118,7 @@ pub(super) fn trace(known: Known, outline: &Outline, line: &Line, classes: &Clas
 
 /// The gaps of a facet on both axes: which of their products lie in the facet, and between which of them a line
 /// surely runs.
-pub(super) struct Grid {
+pub(super) struct FacetGrid {
     /// The classes on both axes.
     pub classes: [Classes; 2],
     inside: Vec<bool>,
@@ -126,7 +126,7 @@ pub(super) struct Grid {
     cut: [Vec<bool>; 2],
 }
 
-impl Grid {
+impl FacetGrid {
     /// The grid of a facet cut by `lines`.
     pub(super) fn new(known: Known, outline: &Outline, lines: &[Line]) -> Self {
         let mut levels = outline.levels.clone();

@@ -1,4 +1,4 @@
-//! Charts on the shape: what a set of loops stands for, drawn, thinned out and moved to where the surface suits them.
+//! ChartedSurface on the shape: what a set of loops stands for, drawn, thinned out and moved to where the surface suits them.
 
 mod relabel;
 mod shortest;
@@ -18,7 +18,7 @@ use triangulation::{NONE, Triangulation};
 const STIFFNESS: f64 = 0.1;
 
 /// Triangles of a surface in charts, each with a label.
-pub(super) struct Charts {
+pub(super) struct ChartedSurface {
     /// The vertices; those of the shape come first.
     pub(super) points: Vec<Point>,
     /// The triangles, in the order of those of the shape that they are part of.
@@ -31,7 +31,7 @@ pub(super) struct Charts {
     pub(super) crossings: Vec<u32>,
 }
 
-impl Charts {
+impl ChartedSurface {
     /// What the labels cost, as a share of the surface.
     pub(super) fn cost(&self) -> f64 {
         let (mut sum, mut total) = (0.0, 0.0);
@@ -52,7 +52,12 @@ impl Charts {
 ///
 /// # Errors
 /// [`ErrorKind::Internal`] if the charts do not come out as the loops say; [`ErrorKind::Cancelled`].
-pub(super) fn charts(points: &[Point], triangles: &[[u32; 3]], loops: &LoopSet, context: &Context) -> Result<Charts> {
+pub(super) fn charts(
+    points: &[Point],
+    triangles: &[[u32; 3]],
+    loops: &LoopSet,
+    context: &Context,
+) -> Result<ChartedSurface> {
     context.tick(0.0)?;
     let mut traced = trace::trace(loops, context)
         .ok_or_else(|| Error::new(ErrorKind::Internal, "the charts are not those that the loops stand for"))?;
@@ -79,7 +84,7 @@ fn mean_side(points: &[Point], triangles: &[[u32; 3]]) -> f64 {
     sum / (3 * triangles.len().max(1)) as f64
 }
 
-/// Charts while they are worked on: `patch` of a triangle is its chart.
+/// ChartedSurface while they are worked on: `patch` of a triangle is its chart.
 struct Traced {
     mesh: Triangulation,
     labels: Vec<u8>,
@@ -88,7 +93,7 @@ struct Traced {
 
 impl Traced {
     /// The charts without gaps in the numbering; the first `kept` vertices keep their numbers.
-    fn compact(self, kept: usize) -> Charts {
+    fn compact(self, kept: usize) -> ChartedSurface {
         let Self { mesh, labels, crossings } = self;
         let mut number = vec![NONE; mesh.points.len()];
         let mut points = Vec::new();
@@ -100,6 +105,6 @@ impl Traced {
         order.sort_by_key(|&t| (mesh.triangles[t].origin, t));
         let triangles = order.iter().map(|&t| mesh.triangles[t].vertices.map(|v| number[v as usize])).collect();
         let chart = order.iter().map(|&t| mesh.triangles[t].patch).collect();
-        Charts { points, triangles, chart, labels, crossings }
+        ChartedSurface { points, triangles, chart, labels, crossings }
     }
 }

@@ -6,14 +6,14 @@ use super::triangulation::{NONE, Triangle, Triangulation};
 use crate::context::Context;
 use crate::make::loops::LoopSet;
 use crate::make::loops::along;
-use crate::make::loops::arrangement::{Arc, Arrangement, loop_vertices};
 use crate::make::loops::cut_mesh::CutMesh;
+use crate::make::loops::graph::{Arc, LoopGraph, loop_vertices};
 use nalgebra::Vector3;
 use std::collections::BTreeMap;
 
 /// Cuts the surface into the charts that the loops stand for; nothing if that fails or is cancelled.
 pub(super) fn trace(loops: &LoopSet, context: &Context) -> Option<Traced> {
-    let mut tracer = Tracer::new(&loops.mesh, &loops.arrangement);
+    let mut tracer = Tracer::new(&loops.mesh, &loops.graph);
     tracer.place_gates(&loops.mesh);
     tracer.trace_regions(context)?;
     tracer.flood_charts()
@@ -28,7 +28,7 @@ struct Gate {
 }
 
 struct Tracer<'a> {
-    loops: &'a Arrangement,
+    loops: &'a LoopGraph,
     mesh: Triangulation,
     /// Whether a vertex lies on a loop or a path.
     blocked: Vec<bool>,
@@ -41,7 +41,7 @@ struct Tracer<'a> {
 }
 
 impl<'a> Tracer<'a> {
-    fn new(cut: &CutMesh, loops: &'a Arrangement) -> Self {
+    fn new(cut: &CutMesh, loops: &'a LoopGraph) -> Self {
         let alive = |c: u32| c != NONE && loops.loops[c as usize].alive;
         let mut at = vec![NONE; cut.points.len()];
         let mut blocked = vec![false; cut.points.len()];

@@ -1,13 +1,13 @@
 //! Coordinates that the vertices of charts must have.
 
-use crate::make::charts::Charts;
+use crate::make::charts::ChartedSurface;
 use crate::mesh::Point;
 
 type Fixed = [Option<f64>; 3];
 
 /// What every vertex must have: the levels of the charts around it, which `level` tells, and along edges a place in
 /// proportion to the length on the shape.
-pub(super) fn prescribed(charts: &Charts, level: impl Fn(u32) -> f64) -> Vec<Fixed> {
+pub(super) fn prescribed(charts: &ChartedSurface, level: impl Fn(u32) -> f64) -> Vec<Fixed> {
     let mut fixed = vec![[None; 3]; charts.points.len()];
     for (t, &chart) in charts.triangles.iter().zip(&charts.chart) {
         let axis = usize::from(charts.labels[chart as usize]) / 2;
@@ -24,7 +24,7 @@ pub(super) fn prescribed(charts: &Charts, level: impl Fn(u32) -> f64) -> Vec<Fix
 }
 
 /// For every vertex those that sides between two charts join it to.
-fn borders(charts: &Charts) -> Vec<Vec<u32>> {
+fn borders(charts: &ChartedSurface) -> Vec<Vec<u32>> {
     let mut sides: Vec<([u32; 2], u32)> = Vec::with_capacity(3 * charts.triangles.len());
     for (t, &chart) in charts.triangles.iter().zip(&charts.chart) {
         sides.extend((0..3).map(|k| {

@@ -4,7 +4,7 @@ use crate::align::problem::{Difference, Problem, ShapeTerm};
 use crate::align::solve::{ExactSolver, Solver};
 use crate::context::Context;
 use crate::error::Result;
-use crate::make::charts::Charts;
+use crate::make::charts::ChartedSurface;
 use crate::make::loops::LoopSet;
 use std::collections::BTreeMap;
 
@@ -39,7 +39,7 @@ pub(super) struct Levels {
 
 impl Levels {
     /// Reads places off the charts and the order off the loops.
-    pub(super) fn new(charts: &Charts, loops: &LoopSet) -> Self {
+    pub(super) fn new(charts: &ChartedSurface, loops: &LoopSet) -> Self {
         let mut numbers = BTreeMap::new();
         let mut number = |zone: u32| {
             let next = numbers.len() as u32;
@@ -49,7 +49,7 @@ impl Levels {
         let of_chart = charts.crossings.iter().map(|q| number(zone(q))).collect();
         let mut differences = Vec::new();
         let mut beside = Vec::new();
-        for (own, cut) in loops.arrangement.loops.iter().zip(&loops.mesh.cuts).filter(|(own, _)| own.alive) {
+        for (own, cut) in loops.graph.loops.iter().zip(&loops.mesh.cuts).filter(|(own, _)| own.alive) {
             let [low, high] = own.zones.map(&mut number);
             differences.push(Difference { low, high, gap: GAP });
             beside.extend([(low, cut.at), (high, cut.at)]);
@@ -62,7 +62,7 @@ impl Levels {
     }
 
     /// Finds the places: the mean of the charts of a level, or of the loops `beside` one without charts.
-    fn measure(&mut self, charts: &Charts, beside: &[(u32, f64)]) {
+    fn measure(&mut self, charts: &ChartedSurface, beside: &[(u32, f64)]) {
         for (t, &chart) in charts.triangles.iter().zip(&charts.chart) {
             let [a, b, c] = t.map(|v| charts.points[v as usize]);
             let area = (b - a).cross(&(c - a)).norm() * 0.5;

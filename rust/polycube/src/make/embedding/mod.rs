@@ -4,7 +4,7 @@ mod edges;
 mod levels;
 mod surface_map;
 
-use super::charts::Charts;
+use super::charts::ChartedSurface;
 use super::loops::LoopSet;
 use crate::context::Context;
 use crate::error::{Error, ErrorKind, Result};
@@ -32,7 +32,7 @@ pub(super) struct Embedded {
 /// # Errors
 /// [`ErrorKind::Polycube`] if parts cannot be kept apart; those of the solver and of
 /// [`optimise`](crate::optimise::optimise()); [`ErrorKind::Cancelled`].
-pub(super) fn embed(charts: &Charts, loops: &LoopSet, context: &Context) -> Result<Embedded> {
+pub(super) fn embed(charts: &ChartedSurface, loops: &LoopSet, context: &Context) -> Result<Embedded> {
     let (mesh, polycube) = Embedding::new(charts, loops).place(&context.stage("embed", 0.0, 0.3))?;
     let mut refined = Refined::new(&polycube, mesh.points(), &charts.points)?;
     let folded = surface_map::unfold(&mut refined, &context.stage("map", 0.3, 1.0))?;
@@ -40,13 +40,13 @@ pub(super) fn embed(charts: &Charts, loops: &LoopSet, context: &Context) -> Resu
 }
 
 struct Embedding<'a> {
-    charts: &'a Charts,
+    charts: &'a ChartedSurface,
     levels: Levels,
     labels: Vec<i8>,
 }
 
 impl<'a> Embedding<'a> {
-    fn new(charts: &'a Charts, loops: &LoopSet) -> Self {
+    fn new(charts: &'a ChartedSurface, loops: &LoopSet) -> Self {
         let labels = charts.chart.iter().map(|&c| charts.labels[c as usize] as i8).collect();
         Self { charts, levels: Levels::new(charts, loops), labels }
     }

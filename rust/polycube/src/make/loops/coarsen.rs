@@ -73,8 +73,8 @@ struct Search<'a> {
 
 impl<'a> Search<'a> {
     fn new(moves: &'a mut Moves, worth: f64) -> Self {
-        let count = moves.arrangement.loops.len();
-        let loops = moves.arrangement.loops.iter().filter(|l| l.alive).count();
+        let count = moves.graph.loops.len();
+        let loops = moves.graph.loops.iter().filter(|l| l.alive).count();
         let none = vec![None; count];
         Self { moves, worth, single: none.clone(), several: none, expanded: BTreeSet::new(), expanded_since: 0, loops }
     }
@@ -155,7 +155,7 @@ impl<'a> Search<'a> {
     }
 
     fn progress(&self) -> f64 {
-        let left = self.moves.arrangement.loops.iter().filter(|l| l.alive).count();
+        let left = self.moves.graph.loops.iter().filter(|l| l.alive).count();
         1.0 - left as f64 / self.loops.max(1) as f64
     }
 }

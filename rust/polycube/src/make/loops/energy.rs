@@ -1,8 +1,8 @@
 //! What labels cost: how far normals are from the directions of the faces that stand for them.
 
 use super::NONE;
-use super::arrangement::Arrangement;
 use super::cut_mesh::CutMesh;
+use super::graph::LoopGraph;
 use super::regions::Regions;
 use nalgebra::Vector3;
 
@@ -29,21 +29,21 @@ pub(in crate::make) fn cost(area: f64, along: f64) -> f64 {
 
 impl Energies {
     /// All nothing.
-    pub(super) fn none(arrangement: &Arrangement) -> Self {
-        Self(vec![[0.0; 6]; arrangement.crossings.len()])
+    pub(super) fn none(graph: &LoopGraph) -> Self {
+        Self(vec![[0.0; 6]; graph.crossings.len()])
     }
 
     /// Every triangle counts for the nearest crossing at its region.
-    pub(super) fn new(mesh: &CutMesh, alive: &[bool], arrangement: &Arrangement) -> Self {
+    pub(super) fn new(mesh: &CutMesh, alive: &[bool], graph: &LoopGraph) -> Self {
         let regions = Regions::new(mesh, alive);
-        let near = crossings_of_regions(mesh, &regions, arrangement);
-        let mut energies = vec![[0.0; 6]; arrangement.crossings.len()];
+        let near = crossings_of_regions(mesh, &regions, graph);
+        let mut energies = vec![[0.0; 6]; graph.crossings.len()];
         let mut total = 0.0;
         for (t, triangle) in mesh.triangles.iter().enumerate() {
             let corners = triangle.vertices.map(|v| mesh.points[v as usize].coords);
             let middle = corners.iter().sum::<Vector3<f64>>() / 3.0;
             let distance = |q: u32| {
-                let vertex = arrangement.crossings[q as usize].vertex as usize;
+                let vertex = graph.crossings[q as usize].vertex as usize;
                 (mesh.points[vertex].coords - middle).norm_squared()
             };
             let own = near[regions.of[t] as usize].iter();
@@ -67,9 +67,9 @@ impl Energies {
     }
 }
 
-fn crossings_of_regions(mesh: &CutMesh, regions: &Regions, arrangement: &Arrangement) -> Vec<Vec<u32>> {
+fn crossings_of_regions(mesh: &CutMesh, regions: &Regions, graph: &LoopGraph) -> Vec<Vec<u32>> {
     let mut at = vec![NONE; mesh.points.len()];
-    (0..).zip(&arrangement.crossings).for_each(|(q, c)| at[c.vertex as usize] = q);
+    (0..).zip(&graph.crossings).for_each(|(q, c)| at[c.vertex as usize] = q);
     let mut near: Vec<Vec<u32>> = vec![Vec::new(); regions.len()];
     for (t, triangle) in mesh.triangles.iter().enumerate() {
         let own = &mut near[regions.of[t] as usize];

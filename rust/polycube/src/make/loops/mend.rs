@@ -1,6 +1,6 @@
 //! Making regions valid by taking few loops away.
 
-use super::arrangement::Arc;
+use super::graph::Arc;
 use super::moves::Moves;
 use super::trial::Blocked;
 use crate::context::Context;
@@ -15,14 +15,14 @@ impl Moves {
     /// # Errors
     /// Only that the context was cancelled.
     pub(super) fn mend(&mut self, budget: usize, share: f64, context: &Context) -> Result<Vec<u32>> {
-        let most = (self.arrangement.crossings.len() as f64 * share) as usize;
+        let most = (self.graph.crossings.len() as f64 * share) as usize;
         let mut taken = Vec::new();
         for arc in self.invalid_regions() {
             context.check()?;
-            if !self.arrangement.crossings[arc as usize / 4].alive || self.arrangement.sides(arc).is_some() {
+            if !self.graph.crossings[arc as usize / 4].alive || self.graph.sides(arc).is_some() {
                 continue;
             }
-            let first = Blocked::start(self.arrangement.outline(arc).1);
+            let first = Blocked::start(self.graph.outline(arc).1);
             let size = |m: &super::trial::Move| (m.crossings <= most).then_some(m.crossings as f64);
             if let Some((_, found)) = self.unblock(first, budget, most, &mut BTreeSet::new(), size) {
                 self.take(&found.loops);
@@ -34,8 +34,8 @@ impl Moves {
 
     /// The least arcs of discs whose sides are too few, too many or of one direction.
     fn invalid_regions(&self) -> Vec<Arc> {
-        let arcs = 0..4 * self.arrangement.crossings.len() as Arc;
-        let invalid = |&h: &Arc| !self.fixed[h as usize] && self.arrangement.sides(h).is_none();
-        arcs.filter(invalid).filter(|&h| self.arrangement.outline(h).0 == h).collect()
+        let arcs = 0..4 * self.graph.crossings.len() as Arc;
+        let invalid = |&h: &Arc| !self.fixed[h as usize] && self.graph.sides(h).is_none();
+        arcs.filter(invalid).filter(|&h| self.graph.outline(h).0 == h).collect()
     }
 }

@@ -14,11 +14,11 @@
 //! Which sets of loops are polycubes: Snoep, Speckmann and Verbeek, *Polycubes via Dual Loops*, 2024 (arXiv
 //! 2410.16865). The search, from many level sets down to few loops, is this project's own.
 
-pub(crate) mod arrangement;
 mod coarsen;
 pub(crate) mod cut_mesh;
 mod energy;
 mod field;
+pub(crate) mod graph;
 mod mend;
 mod moves;
 mod order;
@@ -36,11 +36,11 @@ mod tests;
 use crate::context::Context;
 use crate::error::{Error, ErrorKind, Place, Result};
 use crate::mesh::Point;
-use arrangement::Arrangement;
 use cut_mesh::CutMesh;
 use energy::Energies;
 pub(super) use energy::{along, cost};
 use field::Field;
+use graph::LoopGraph;
 use moves::Moves;
 use rayon::prelude::*;
 use start::{Attempt, Start};
@@ -81,7 +81,7 @@ pub(crate) struct LoopSet {
     /// The surface, cut along all loops there ever were.
     pub(crate) mesh: CutMesh,
     /// The loops that are left; index `l` is cut `l` of the mesh.
-    pub(crate) arrangement: Arrangement,
+    pub(crate) graph: LoopGraph,
     /// The zone that the face of each crossing lies in.
     pub(crate) zone_of_crossing: Vec<u32>,
     /// The corners of the polycube.
@@ -167,14 +167,14 @@ fn few_loops(
     if let Some(face) = fault {
         return Ok(Err(face));
     }
-    let arrangement = Arrangement::new(&mesh, &alive);
-    let energies = Energies::new(&mesh, &alive, &arrangement);
-    let mut moves = Moves::new(&mesh, &alive, arrangement, energies);
+    let graph = LoopGraph::new(&mesh, &alive);
+    let energies = Energies::new(&mesh, &alive, &graph);
+    let mut moves = Moves::new(&mesh, &alive, graph, energies);
     if !moves.order.is_acyclic() {
         return Ok(Err(mesh.triangles[0].origin));
     }
     coarsen::coarsen(&mut moves, options, context)?;
     let corners = moves.corners();
-    let (arrangement, zone_of_crossing) = moves.finish();
-    Ok(Ok(LoopSet { mesh, arrangement, zone_of_crossing, corners }))
+    let (graph, zone_of_crossing) = moves.finish();
+    Ok(Ok(LoopSet { mesh, graph, zone_of_crossing, corners }))
 }

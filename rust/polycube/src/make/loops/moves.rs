@@ -1,9 +1,9 @@
 //! A set of loops from which loops are taken away.
 
 use super::NONE;
-use super::arrangement::{Arc, Arrangement};
 use super::cut_mesh::CutMesh;
 use super::energy::Energies;
+use super::graph::{Arc, LoopGraph};
 use super::order::Order;
 use super::regions::Regions;
 use petgraph::unionfind::UnionFind;
@@ -18,7 +18,7 @@ pub(super) struct Transfer {
 /// The loops, their zones, and what is known of both.
 #[derive(Clone, Debug)]
 pub(super) struct Moves {
-    pub(super) arrangement: Arrangement,
+    pub(super) graph: LoopGraph,
     pub(super) energies: Energies,
     /// The zone of the face of each crossing, as it was at first.
     zone_of_crossing: Vec<u32>,
@@ -40,25 +40,25 @@ pub(super) struct Moves {
 
 impl Moves {
     /// The living loops of a mesh.
-    pub(super) fn new(mesh: &CutMesh, alive: &[bool], mut arrangement: Arrangement, energies: Energies) -> Self {
+    pub(super) fn new(mesh: &CutMesh, alive: &[bool], mut graph: LoopGraph, energies: Energies) -> Self {
         let regions = Regions::new(mesh, alive);
-        let region_of = regions_of_arcs(mesh, alive, &arrangement, &regions);
-        let (zone, zones) = zones(&arrangement, &region_of, regions.len());
-        for (l, own) in (0..).zip(&mut arrangement.loops) {
+        let region_of = regions_of_arcs(mesh, alive, &graph, &regions);
+        let (zone, zones) = zones(&graph, &region_of, regions.len());
+        for (l, own) in (0..).zip(&mut graph.loops) {
             if let Some(&q) = own.crossings.first() {
-                let slot = usize::from(arrangement.crossings[q as usize].loops[1] == l);
+                let slot = usize::from(graph.crossings[q as usize].loops[1] == l);
                 own.zones = [0, 1].map(|f| zone[own.axis][region_of[q as usize * 4 + slot * 2 + f] as usize]);
             }
         }
         let face = |(q, label): (usize, u8)| zone[label as usize / 2][region_of[q * 4] as usize];
-        let zone_of_crossing: Vec<u32> = arrangement.crossings.iter().map(|c| c.label).enumerate().map(face).collect();
+        let zone_of_crossing: Vec<u32> = graph.crossings.iter().map(|c| c.label).enumerate().map(face).collect();
         let mut faces = vec![0; zones];
         zone_of_crossing.iter().for_each(|&z| faces[z as usize] += 1);
-        let count = arrangement.loops.len();
+        let count = graph.loops.len();
         let mut me = Self {
-            left: arrangement.loops.iter().map(|l| l.crossings.len() as u32).collect(),
+            left: graph.loops.iter().map(|l| l.crossings.len() as u32).collect(),
             fixed: region_of.iter().map(|&r| regions.euler[r as usize] != 1).collect(),
-            arrangement,
+            graph,
             energies,
             zone_of_crossing,
             zones: UnionFind::new(zones),
@@ -75,7 +75,7 @@ impl Moves {
     /// Names the zones of all loops anew and builds the order of zones.
     fn sort_zones(&mut self) {
         let mut steps = Vec::new();
-        for (l, own) in (0..).zip(&mut self.arrangement.loops).filter(|(_, own)| own.alive) {
+        for (l, own) in (0..).zip(&mut self.graph.loops).filter(|(_, own)| own.alive) {
             own.zones = own.zones.map(|z| self.zones.find_mut(z));
             steps.push((own.zones[0], own.zones[1], l));
         }
@@ -84,19 +84,19 @@ impl Moves {
 
     /// Whether a loop is the first of those between its zones.
     pub(super) fn is_first(&self, l: u32) -> bool {
-        let own = &self.arrangement.loops[l as usize];
+        let own = &self.graph.loops[l as usize];
         own.alive && self.order.parallel(own.zones).next() == Some(l)
     }
 
     /// Whether one of the zones beside each of these loops has no face.
     pub(super) fn is_free(&self, loops: &[u32]) -> bool {
         let empty = |z: u32| self.faces[z as usize] == 0;
-        loops.iter().all(|&l| self.arrangement.loops[l as usize].zones.into_iter().any(empty))
+        loops.iter().all(|&l| self.graph.loops[l as usize].zones.into_iter().any(empty))
     }
 
     /// Whether nothing changed beside these loops since there were this many moves.
     pub(super) fn is_unchanged(&self, loops: &[u32], since: u32) -> bool {
-        loops.iter().all(|&l| self.arrangement.loops[l as usize].alive && self.changed[l as usize] <= since)
+        loops.iter().all(|&l| self.graph.loops[l as usize].alive && self.changed[l as usize] <= since)
     }
 
     /// Takes closed `loops` with all their crossings away.
@@ -105,7 +105,7 @@ impl Moves {
         self.moves += 1;
         transfers.iter().for_each(|t| self.energies.give(t.from, t.to));
         for &q in crossings {
-            for l in self.arrangement.crossings[q as usize].loops {
+            for l in self.graph.crossings[q as usize].loops {
                 self.left[l as usize] -= 1;
                 self.changed[l as usize] = self.moves;
             }
@@ -119,9 +119,9 @@ impl Moves {
     }
 
     fn mark_changed(&mut self, fresh: &[Arc]) {
-        for &arc in fresh.iter().filter(|&&h| self.arrangement.crossings[h as usize / 4].alive) {
-            for side in [arc, self.arrangement.twin(arc)] {
-                let loops = self.arrangement.outline(side).1;
+        for &arc in fresh.iter().filter(|&&h| self.graph.crossings[h as usize / 4].alive) {
+            for side in [arc, self.graph.twin(arc)] {
+                let loops = self.graph.outline(side).1;
                 loops.iter().for_each(|&l| self.changed[l as usize] = self.moves);
             }
         }
@@ -129,7 +129,7 @@ impl Moves {
 
     /// Makes one zone of those beside a loop.
     fn merge(&mut self, l: u32) {
-        let own = &mut self.arrangement.loops[l as usize];
+        let own = &mut self.graph.loops[l as usize];
         own.alive = false;
         let [low, high] = own.zones.map(|z| self.zones.find_mut(z));
         if self.zones.union(low, high) {
@@ -141,8 +141,8 @@ impl Moves {
 
     /// Drops crossings that are gone from the lists of loops that are mostly gone.
     fn forget_crossings(&mut self) {
-        let crossings = &self.arrangement.crossings;
-        for (own, &left) in self.arrangement.loops.iter_mut().zip(&self.left) {
+        let crossings = &self.graph.crossings;
+        for (own, &left) in self.graph.loops.iter_mut().zip(&self.left) {
             if own.crossings.len() as u32 > 2 * left {
                 own.crossings.retain(|&q| crossings[q as usize].alive);
             }
@@ -152,34 +152,34 @@ impl Moves {
     /// How many corners the polycube has.
     pub(super) fn corners(&self) -> usize {
         let arcs = self.living().flat_map(|q| (0..4).map(move |f| q * 4 + f));
-        arcs.filter(|&h| self.arrangement.region(h) == Some((h, true))).count()
+        arcs.filter(|&h| self.graph.region(h) == Some((h, true))).count()
     }
 
     /// The crossings that are left.
     pub(super) fn living(&self) -> impl Iterator<Item = u32> + '_ {
-        (0..).zip(&self.arrangement.crossings).filter(|(_, c)| c.alive).map(|(q, _)| q)
+        (0..).zip(&self.graph.crossings).filter(|(_, c)| c.alive).map(|(q, _)| q)
     }
 
     /// The loops that are left and the zones of the faces of all crossings.
-    pub(super) fn finish(mut self) -> (Arrangement, Vec<u32>) {
+    pub(super) fn finish(mut self) -> (LoopGraph, Vec<u32>) {
         let zones = self.zone_of_crossing.iter().map(|&z| self.zones.find_mut(z)).collect();
-        let crossings = &self.arrangement.crossings;
-        self.arrangement.loops.iter_mut().for_each(|l| l.crossings.retain(|&q| crossings[q as usize].alive));
-        (self.arrangement, zones)
+        let crossings = &self.graph.crossings;
+        self.graph.loops.iter_mut().for_each(|l| l.crossings.retain(|&q| crossings[q as usize].alive));
+        (self.graph, zones)
     }
 }
 
 /// The region left of each arc.
-fn regions_of_arcs(mesh: &CutMesh, alive: &[bool], arrangement: &Arrangement, regions: &Regions) -> Vec<u32> {
+fn regions_of_arcs(mesh: &CutMesh, alive: &[bool], graph: &LoopGraph, regions: &Regions) -> Vec<u32> {
     let mut at = vec![NONE; mesh.points.len()];
-    (0..).zip(&arrangement.crossings).for_each(|(q, c)| at[c.vertex as usize] = q);
-    let mut region_of = vec![0; 4 * arrangement.crossings.len()];
+    (0..).zip(&graph.crossings).for_each(|(q, c)| at[c.vertex as usize] = q);
+    let mut region_of = vec![0; 4 * graph.crossings.len()];
     for (t, triangle) in mesh.triangles.iter().enumerate() {
         for k in 0..3 {
             let (cut, q) = (triangle.cut[k], at[triangle.vertices[k] as usize]);
             if cut != NONE && q != NONE && alive[cut as usize] {
                 // A side leaves its first end forward if what is high lies on its left.
-                let arc = q as usize * 4 + arrangement.slot(q, cut) * 2 + usize::from(mesh.is_above(t, k));
+                let arc = q as usize * 4 + graph.slot(q, cut) * 2 + usize::from(mesh.is_above(t, k));
                 region_of[arc] = regions.of[t];
             }
         }
@@ -188,11 +188,11 @@ fn regions_of_arcs(mesh: &CutMesh, alive: &[bool], arrangement: &Arrangement, re
 }
 
 /// For each axis the zone of each region, and how many zones there are.
-fn zones(arrangement: &Arrangement, region_of: &[u32], regions: usize) -> ([Vec<u32>; 3], usize) {
+fn zones(graph: &LoopGraph, region_of: &[u32], regions: usize) -> ([Vec<u32>; 3], usize) {
     let mut sets: [UnionFind<u32>; 3] = std::array::from_fn(|_| UnionFind::new(regions));
     for arc in 0..region_of.len() as u32 {
-        let axis = arrangement.direction(arc) / 2;
-        let [r, s] = [arc, arrangement.twin(arc)].map(|h| region_of[h as usize]);
+        let axis = graph.direction(arc) / 2;
+        let [r, s] = [arc, graph.twin(arc)].map(|h| region_of[h as usize]);
         (0..3).filter(|&a| a != axis).for_each(|a| {
             sets[a].union(r, s);
         });

@@ -1,8 +1,8 @@
 //! More loops through regions that are invalid.
 
 use super::NONE;
-use super::arrangement::{Arc, Arrangement};
 use super::cut_mesh::{Cut, CutMesh};
+use super::graph::{Arc, LoopGraph};
 use super::regions::Regions;
 use crate::context::Context;
 use crate::error::Result;
@@ -39,7 +39,7 @@ const DESPERATE: usize = 12;
 pub(super) struct Repair<'a> {
     mesh: &'a mut CutMesh,
     alive: &'a mut Vec<bool>,
-    arrangement: Arrangement,
+    graph: LoopGraph,
     faults: Vec<Fault>,
     round: usize,
     least: f64,
@@ -48,9 +48,9 @@ pub(super) struct Repair<'a> {
 impl<'a> Repair<'a> {
     /// Finds all invalid regions.
     pub(super) fn new(mesh: &'a mut CutMesh, alive: &'a mut Vec<bool>, size: f64, round: usize) -> Self {
-        let arrangement = Arrangement::new(mesh, alive);
-        let faults = find_faults(mesh, alive, &arrangement);
-        Self { mesh, alive, arrangement, faults, round, least: LEAST * size }
+        let graph = LoopGraph::new(mesh, alive);
+        let faults = find_faults(mesh, alive, &graph);
+        Self { mesh, alive, graph, faults, round, least: LEAST * size }
     }
 
     /// A face of the shape in the first invalid region.
@@ -86,7 +86,7 @@ impl<'a> Repair<'a> {
 
     /// Whether a triangle lies at a cut made in this round.
     fn is_cut(&self, t: usize) -> bool {
-        let first = self.arrangement.loops.len() as u32;
+        let first = self.graph.loops.len() as u32;
         self.mesh.triangles[t].cut.iter().any(|&c| c != NONE && c >= first)
     }
 
@@ -142,7 +142,7 @@ impl<'a> Repair<'a> {
             return self.between_sides(&fault.arcs);
         }
         let mut sides = [0; 3];
-        fault.arcs.iter().for_each(|&h| sides[self.arrangement.direction(h) / 2] += 1);
+        fault.arcs.iter().for_each(|&h| sides[self.graph.direction(h) / 2] += 1);
         fault.lone.iter().for_each(|&l| sides[self.mesh.cuts[l as usize].axis] += 1);
         let extent = spans.map(|s| s[1] - s[0]);
         let mut axes = [0, 1, 2];
@@ -153,14 +153,14 @@ impl<'a> Repair<'a> {
 
     fn between_sides(&self, arcs: &[Arc]) -> Option<(usize, f64)> {
         let middle = |h: Arc| -> [f64; 3] {
-            let ends = [h / 4, self.arrangement.end(h)];
-            let [p, q] = ends.map(|q| self.mesh.values[self.arrangement.crossings[q as usize].vertex as usize]);
+            let ends = [h / 4, self.graph.end(h)];
+            let [p, q] = ends.map(|q| self.mesh.values[self.graph.crossings[q as usize].vertex as usize]);
             std::array::from_fn(|a| 0.5 * (p[a] + q[a]))
         };
         let (mut widest, mut found) = (self.least, None);
         for (i, &g) in arcs.iter().enumerate() {
-            let direction = self.arrangement.direction(g);
-            for &h in arcs[..i].iter().filter(|&&h| self.arrangement.direction(h) == direction) {
+            let direction = self.graph.direction(g);
+            for &h in arcs[..i].iter().filter(|&&h| self.graph.direction(h) == direction) {
                 let (p, q) = (middle(g), middle(h));
                 for axis in (0..3).filter(|&a| a != direction / 2) {
                     if (p[axis] - q[axis]).abs() > widest {
@@ -176,38 +176,38 @@ impl<'a> Repair<'a> {
     /// Takes a loop beside a region away: one that crosses no other, or, if nothing else helped for long, the shortest
     /// that is too many.
     fn remove(&mut self, fault: &Fault) -> bool {
-        let loop_of = |h: &Arc| self.arrangement.loop_of(*h);
+        let loop_of = |h: &Arc| self.graph.loop_of(*h);
         let desperate = self.round >= DESPERATE && self.round.is_multiple_of(4);
-        let direction = |h: &Arc| self.arrangement.direction(*h);
+        let direction = |h: &Arc| self.graph.direction(*h);
         let repeats = |h: &&Arc| fault.arcs.iter().filter(|g| direction(g) == direction(h)).count() > 1;
         let extra = fault.arcs.iter().filter(|h| fault.why != Why::Repeated || repeats(h)).map(loop_of);
-        let shortest = extra.min_by_key(|&l| self.arrangement.loops[l as usize].crossings.len());
+        let shortest = extra.min_by_key(|&l| self.graph.loops[l as usize].crossings.len());
         let Some(l) = fault.lone.first().copied().or(shortest.filter(|_| desperate)) else { return false };
         self.alive[l as usize] = false;
         true
     }
 }
 
-fn find_faults(mesh: &CutMesh, alive: &[bool], arrangement: &Arrangement) -> Vec<Fault> {
+fn find_faults(mesh: &CutMesh, alive: &[bool], graph: &LoopGraph) -> Vec<Fault> {
     let regions = Regions::new(mesh, alive);
     let mut at = vec![NONE; mesh.points.len()];
-    (0..).zip(&arrangement.crossings).for_each(|(q, c)| at[c.vertex as usize] = q);
+    (0..).zip(&graph.crossings).for_each(|(q, c)| at[c.vertex as usize] = q);
     let mut arcs: Vec<Vec<Arc>> = vec![Vec::new(); regions.len()];
     let mut lone: Vec<Vec<u32>> = vec![Vec::new(); regions.len()];
     for (t, triangle) in mesh.triangles.iter().enumerate() {
         let region = regions.of[t] as usize;
         for k in (0..3).filter(|&k| triangle.cut[k] != NONE && alive[triangle.cut[k] as usize]) {
             let (l, q) = (triangle.cut[k], at[triangle.vertices[k] as usize]);
-            if !arrangement.loops[l as usize].alive {
+            if !graph.loops[l as usize].alive {
                 lone[region].push(l);
             } else if q != NONE {
-                arcs[region].push(q * 4 + arrangement.slot(q, l) as u32 * 2 + u32::from(mesh.is_above(t, k)));
+                arcs[region].push(q * 4 + graph.slot(q, l) as u32 * 2 + u32::from(mesh.is_above(t, k)));
             }
         }
     }
     let why = |r: usize| -> Option<Why> {
         let directions = arcs[r].iter().fold([0_u8; 6], |mut seen, &h| {
-            seen[arrangement.direction(h)] += 1;
+            seen[graph.direction(h)] += 1;
             seen
         });
         if regions.euler[r] != 1 || !lone[r].is_empty() {

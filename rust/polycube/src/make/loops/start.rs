@@ -1,8 +1,8 @@
 //! A dense valid set of loops: evenly spaced level sets, and more or fewer of them where regions are invalid.
 
-use super::arrangement::Arrangement;
 use super::cut_mesh::{Cut, CutMesh};
 use super::energy::Energies;
+use super::graph::LoopGraph;
 use super::moves::Moves;
 use super::repair::{Repair, widest_gap};
 use crate::context::Context;
@@ -79,9 +79,9 @@ fn span(values: &[[f64; 3]], axis: usize) -> [f64; 2] {
 
 /// Makes discs valid by taking loops away.
 fn mend(mesh: &CutMesh, alive: &mut [bool], round: usize, context: &Context) -> Result<()> {
-    let arrangement = Arrangement::new(mesh, alive);
-    let energies = Energies::none(&arrangement);
-    let mut moves = Moves::new(mesh, alive, arrangement, energies);
+    let graph = LoopGraph::new(mesh, alive);
+    let energies = Energies::none(&graph);
+    let mut moves = Moves::new(mesh, alive, graph, energies);
     let (budget, share) = if round < 4 { (40, 0.05) } else { (150, 0.2) };
     for l in moves.mend(budget, share, context)? {
         alive[l as usize] = false;

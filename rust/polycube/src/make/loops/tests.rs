@@ -23,7 +23,7 @@ fn loops_of(mesh: &Mesh, options: &LoopOptions) -> LoopSet {
 }
 
 fn check_set(set: &LoopSet) {
-    check(&set.mesh, |cut| set.arrangement.loops[cut as usize].alive);
+    check(&set.mesh, |cut| set.graph.loops[cut as usize].alive);
 }
 
 /// A surface with triangles about `step` long, rounded, bent and twisted by `seed`.
@@ -57,7 +57,7 @@ fn a_box_has_eight_corners() {
     let set = loops_of(&mesh, &LoopOptions::default());
     check_set(&set);
     assert_eq!(set.corners, 8);
-    assert_eq!(set.arrangement.loops.iter().filter(|l| l.alive).count(), 3);
+    assert_eq!(set.graph.loops.iter().filter(|l| l.alive).count(), 3);
 }
 
 #[test]
@@ -69,16 +69,16 @@ fn plates_of_genus_0_to_12_are_valid_after_every_step() {
         let begun = start(mesh.points(), &values, &triangles, 24, &Context::default()).unwrap();
         assert_eq!(begun.fault, None, "genus {holes}");
         check(&begun.mesh, |cut| begun.alive[cut as usize]);
-        let arrangement = Arrangement::new(&begun.mesh, &begun.alive);
-        let energies = Energies::new(&begun.mesh, &begun.alive, &arrangement);
-        let mut moves = Moves::new(&begun.mesh, &begun.alive, arrangement, energies);
+        let graph = LoopGraph::new(&begun.mesh, &begun.alive);
+        let energies = Energies::new(&begun.mesh, &begun.alive, &graph);
+        let mut moves = Moves::new(&begun.mesh, &begun.alive, graph, energies);
         let first = moves.corners();
         let mut corners = usize::MAX;
         while moves.corners() < corners {
             corners = moves.corners();
             let options = LoopOptions { corners: Some(corners - 1), ..LoopOptions::default() };
             coarsen::coarsen(&mut moves, &options, &Context::default()).unwrap();
-            check(&begun.mesh, |cut| moves.arrangement.loops[cut as usize].alive);
+            check(&begun.mesh, |cut| moves.graph.loops[cut as usize].alive);
         }
         assert!((8..=first).contains(&corners), "genus {holes}: {first} corners became {corners}");
     }
@@ -122,7 +122,7 @@ fn any_number_of_threads_gives_the_same_loops() {
     };
     let (one, many) = (with(1), with(4));
     assert_eq!(one.mesh.points, many.mesh.points);
-    let alive = |set: &LoopSet| set.arrangement.loops.iter().map(|l| l.alive).collect::<Vec<_>>();
+    let alive = |set: &LoopSet| set.graph.loops.iter().map(|l| l.alive).collect::<Vec<_>>();
     assert_eq!(alive(&one), alive(&many));
 }
 

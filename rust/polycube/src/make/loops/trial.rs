@@ -1,7 +1,7 @@
 //! What would happen if loops were taken away.
 
 use super::NONE;
-use super::arrangement::Arc;
+use super::graph::Arc;
 use super::moves::{Moves, Transfer};
 use petgraph::unionfind::UnionFind;
 use std::collections::{BTreeMap, BTreeSet};
@@ -131,7 +131,7 @@ impl Moves {
         self.doom(loops, &mut set);
         loop {
             let before = set.len();
-            let mut seeds: Vec<u32> = set.iter().map(|&l| self.arrangement.loops[l as usize].zones[0]).collect();
+            let mut seeds: Vec<u32> = set.iter().map(|&l| self.graph.loops[l as usize].zones[0]).collect();
             seeds.sort_unstable();
             seeds.dedup();
             let between = self.order.closure(&seeds, &self.doomed);
@@ -157,9 +157,9 @@ impl Moves {
     fn lonely(&self, doomed: &[u32]) -> Vec<u32> {
         let mut crossed: Vec<u32> = Vec::new();
         for &l in doomed {
-            let own = self.arrangement.loops[l as usize].crossings.iter();
-            let own = own.filter(|&&q| self.arrangement.crossings[q as usize].alive);
-            crossed.extend(own.map(|&q| self.arrangement.other(q, l)).filter(|&m| !self.doomed[m as usize]));
+            let own = self.graph.loops[l as usize].crossings.iter();
+            let own = own.filter(|&&q| self.graph.crossings[q as usize].alive);
+            crossed.extend(own.map(|&q| self.graph.other(q, l)).filter(|&m| !self.doomed[m as usize]));
         }
         crossed.sort_unstable();
         let all = |same: &&[u32]| same.len() as u32 == self.left[same[0] as usize];
@@ -170,8 +170,8 @@ impl Moves {
     fn crossings_of(&self, loops: &[u32]) -> Vec<u32> {
         let mut found = Vec::new();
         for &l in loops {
-            found.extend(self.arrangement.loops[l as usize].crossings.iter().copied().filter(|&q| {
-                let crossing = &self.arrangement.crossings[q as usize];
+            found.extend(self.graph.loops[l as usize].crossings.iter().copied().filter(|&q| {
+                let crossing = &self.graph.crossings[q as usize];
                 crossing.alive && (crossing.loops[0] == l || !self.doomed[crossing.loops[0] as usize])
             }));
         }
@@ -210,7 +210,7 @@ impl Moves {
     /// The regions at these crossings, and whether each is a corner.
     fn regions_before(&self, crossings: &[u32]) -> Vec<CornerOrNot> {
         let arcs = crossings.iter().flat_map(|q| (0..4).map(move |f| q * 4 + f));
-        let region = |h| self.arrangement.region(h).unwrap_or_else(|| (self.arrangement.outline(h).0, false));
+        let region = |h| self.graph.region(h).unwrap_or_else(|| (self.graph.outline(h).0, false));
         let mut regions: Vec<_> = arcs.map(region).collect();
         regions.sort_unstable();
         regions.dedup();
@@ -223,12 +223,12 @@ impl Moves {
         let fresh = self.unlink(crossings);
         let mut regions = Vec::new();
         let mut invalid: Vec<(usize, Arc, Vec<u32>)> = Vec::new();
-        for &arc in fresh.iter().filter(|&&h| self.arrangement.crossings[h as usize / 4].alive) {
-            for side in [arc, self.arrangement.twin(arc)] {
-                match self.arrangement.region(side) {
+        for &arc in fresh.iter().filter(|&&h| self.graph.crossings[h as usize / 4].alive) {
+            for side in [arc, self.graph.twin(arc)] {
+                match self.graph.region(side) {
                     Some(region) => regions.push(region),
                     None => {
-                        let (least, loops) = self.arrangement.outline(side);
+                        let (least, loops) = self.graph.outline(side);
                         invalid.push((loops.len(), least, loops));
                     }
                 }
@@ -252,16 +252,16 @@ impl Moves {
     pub(super) fn unlink(&mut self, crossings: &[u32]) -> Vec<Arc> {
         let mut fresh = Vec::new();
         for &q in crossings {
-            self.arrangement.crossings[q as usize].alive = false;
+            self.graph.crossings[q as usize].alive = false;
             for slot in 0..2 {
-                let crossing = &self.arrangement.crossings[q as usize];
+                let crossing = &self.graph.crossings[q as usize];
                 let (l, next, prev) = (crossing.loops[slot], crossing.next[slot], crossing.prev[slot]);
                 if self.doomed[l as usize] {
                     continue;
                 }
-                let [s, t] = [next, prev].map(|p| self.arrangement.slot(p, l));
-                self.arrangement.crossings[next as usize].prev[s] = prev;
-                self.arrangement.crossings[prev as usize].next[t] = next;
+                let [s, t] = [next, prev].map(|p| self.graph.slot(p, l));
+                self.graph.crossings[next as usize].prev[s] = prev;
+                self.graph.crossings[prev as usize].next[t] = next;
                 fresh.push(prev * 4 + t as u32 * 2 + 1);
             }
         }
@@ -272,16 +272,16 @@ impl Moves {
     fn relink(&mut self, crossings: &[u32]) {
         for &q in crossings.iter().rev() {
             for slot in [1, 0] {
-                let crossing = &self.arrangement.crossings[q as usize];
+                let crossing = &self.graph.crossings[q as usize];
                 let (l, next, prev) = (crossing.loops[slot], crossing.next[slot], crossing.prev[slot]);
                 if self.doomed[l as usize] {
                     continue;
                 }
-                let [s, t] = [next, prev].map(|p| self.arrangement.slot(p, l));
-                self.arrangement.crossings[next as usize].prev[s] = q;
-                self.arrangement.crossings[prev as usize].next[t] = q;
+                let [s, t] = [next, prev].map(|p| self.graph.slot(p, l));
+                self.graph.crossings[next as usize].prev[s] = q;
+                self.graph.crossings[prev as usize].next[t] = q;
             }
-            self.arrangement.crossings[q as usize].alive = true;
+            self.graph.crossings[q as usize].alive = true;
         }
     }
 
@@ -290,13 +290,13 @@ impl Moves {
         let mut number = BTreeMap::new();
         let mut region = |arc| {
             let next = number.len() as u32;
-            *number.entry(self.arrangement.outline(arc).0).or_insert(next)
+            *number.entry(self.graph.outline(arc).0).or_insert(next)
         };
         let mut unions = Vec::new();
         for &q in crossings {
-            for slot in (0..2).filter(|&s| self.doomed[self.arrangement.crossings[q as usize].loops[s] as usize]) {
+            for slot in (0..2).filter(|&s| self.doomed[self.graph.crossings[q as usize].loops[s] as usize]) {
                 for arc in [0, 1].map(|f| q * 4 + slot as u32 * 2 + f) {
-                    unions.push((region(arc), region(self.arrangement.twin(arc))));
+                    unions.push((region(arc), region(self.graph.twin(arc))));
                 }
             }
         }
@@ -309,7 +309,7 @@ impl Moves {
         borders.iter().for_each(|&(r, arc)| holed.entry(sets.find(r)).or_default().push(arc));
         holed.retain(|_, borders| borders.len() > 1);
         let first = holed.values().next().into_iter().flatten();
-        let mut options: Vec<u32> = first.flat_map(|&arc| self.arrangement.outline(arc).1).collect();
+        let mut options: Vec<u32> = first.flat_map(|&arc| self.graph.outline(arc).1).collect();
         options.retain(|&l| !self.doomed[l as usize]);
         options.sort_unstable();
         options.dedup();
@@ -322,7 +322,7 @@ impl Moves {
         let mut cost = 0.0;
         let mut transfers = Vec::with_capacity(crossings.len());
         for &from in crossings {
-            let label = |q: u32| self.arrangement.crossings[q as usize].label;
+            let label = |q: u32| self.graph.crossings[q as usize].label;
             let energy = |q: u32| self.energies.0[from as usize][label(q) as usize];
             let heirs = self.heirs(from);
             let like = |q: &&u32| label(**q) == label(from);
@@ -340,7 +340,7 @@ impl Moves {
     /// The crossings that stay next to one that goes. Where both of its loops go, those next to its neighbours that
     /// lose one.
     fn heirs(&self, q: u32) -> Vec<u32> {
-        let loops = self.arrangement.crossings[q as usize].loops;
+        let loops = self.graph.crossings[q as usize].loops;
         let doomed = loops.map(|l| self.doomed[l as usize]);
         let near = |q: u32, l: u32| [true, false].map(|forward| self.nearest(q, l, forward)).into_iter();
         let mut found: Vec<u32> = if doomed == [true; 2] {
@@ -357,13 +357,13 @@ impl Moves {
     fn nearest(&self, q: u32, l: u32, forward: bool) -> u32 {
         let mut at = q;
         loop {
-            let slot = self.arrangement.slot(at, l);
-            let crossing = &self.arrangement.crossings[at as usize];
+            let slot = self.graph.slot(at, l);
+            let crossing = &self.graph.crossings[at as usize];
             at = if forward { crossing.next[slot] } else { crossing.prev[slot] };
             if at == q {
                 return NONE;
             }
-            if !self.doomed[self.arrangement.other(at, l) as usize] {
+            if !self.doomed[self.graph.other(at, l) as usize] {
                 return at;
             }
         }

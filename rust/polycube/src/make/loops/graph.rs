@@ -55,14 +55,14 @@ impl Sides {
 
 /// All crossings of a set of loops.
 #[derive(Clone, Debug, Default)]
-pub(crate) struct Arrangement {
+pub(crate) struct LoopGraph {
     /// The crossings.
     pub(crate) crossings: Vec<Crossing>,
     /// The loops, one for each cut of the mesh.
     pub(crate) loops: Vec<Loop>,
 }
 
-impl Arrangement {
+impl LoopGraph {
     /// The loops of the living cuts. Those that cross no other are not alive in it.
     pub(crate) fn new(mesh: &CutMesh, alive: &[bool]) -> Self {
         let paths = loop_vertices(mesh, |cut| alive[cut as usize]);
