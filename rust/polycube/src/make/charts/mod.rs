@@ -1,4 +1,4 @@
-//! ChartedSurface on the shape: what a set of loops stands for, drawn, thinned out and moved to where the surface suits them.
+//! Charts on the shape: what a set of loops stands for, drawn, thinned out and moved to where the surface suits them.
 
 mod relabel;
 mod shortest;
@@ -84,7 +84,7 @@ fn mean_side(points: &[Point], triangles: &[[u32; 3]]) -> f64 {
     sum / (3 * triangles.len().max(1)) as f64
 }
 
-/// ChartedSurface while they are worked on: `patch` of a triangle is its chart.
+/// Charts while they are worked on: `patch` of a triangle is its chart.
 struct Traced {
     mesh: Triangulation,
     labels: Vec<u8>,
