@@ -1,6 +1,7 @@
 //! Work in the background.
 
 use crate::errors;
+use crate::made::{self, PyMade};
 use crate::mesh::PyMesh;
 use crate::remeshed::{self, PyRemeshed};
 use crate::simplified::{self, PySimplified};
@@ -23,14 +24,16 @@ use std::time::Duration;
 pub struct PyJob(Kind);
 
 enum Kind {
+    Make(Work<PyMade>),
     Simplify(Work<PySimplified>),
     Remesh(Work<PyRemeshed>),
 }
 
-/// Does the same with either kind of work.
-macro_rules! either {
+/// Does the same with any kind of work.
+macro_rules! any {
     ($job:expr, $work:ident => $do:expr) => {
         match &$job.0 {
+            Kind::Make($work) => $do,
             Kind::Simplify($work) => $do,
             Kind::Remesh($work) => $do,
         }
@@ -39,6 +42,13 @@ macro_rules! either {
 
 #[pymethods]
 impl PyJob {
+    /// Starts `polycube.make` with these arguments, of which mistakes are raised at once.
+    #[staticmethod]
+    #[pyo3(signature = (shape, **options), text_signature = "(shape, *, detail=0.5, corners=None)")]
+    fn make(py: Python<'_>, shape: &PyMesh, options: Option<&Bound<'_, PyDict>>) -> PyResult<Self> {
+        Ok(Self(Kind::Make(work::start(py, made::task(py, shape, options)?)?)))
+    }
+
     /// Starts `polycube.simplify` with these arguments, of which mistakes are raised at once.
     #[staticmethod]
     #[pyo3(
@@ -60,17 +70,18 @@ impl PyJob {
     /// Starts `polycube.remesh` with these arguments, of which mistakes are raised at once.
     #[staticmethod]
     #[pyo3(
-        signature = (shape, polycube, **options),
-        text_signature = "(shape, polycube, *, labels=None, hexes=None, edge_length=None, scale=None, padding=1, \
-            surface_only=False, max_hausdorff=0.5, strategy='best', objective=None, simplicity=None, \
-            max_displacement=None, max_distortion=None, locked_faces=None, guides=None, steps=400, \
+        signature = (shape, polycube=None, **options),
+        text_signature = "(shape, polycube=None, *, detail=None, corners=None, labels=None, hexes=None, \
+            edge_length=None, scale=None, padding=1, surface_only=False, max_hausdorff=0.5, strategy='best', \
+            objective=None, simplicity=None, max_displacement=None, max_distortion=None, locked_faces=None, \
+            guides=None, steps=400, \
             proof_nodes=200, time_limit=None, lambda_min=0.0, solver='exact', angle_tolerance=30.0, \
             level_tolerance=0.05)"
     )]
     fn remesh(
         py: Python<'_>,
         shape: &PyMesh,
-        polycube: &PyMesh,
+        polycube: Option<&PyMesh>,
         options: Option<&Bound<'_, PyDict>>,
     ) -> PyResult<Self> {
         Ok(Self(Kind::Remesh(work::start(py, remeshed::task(py, shape, polycube, options)?)?)))
@@ -79,18 +90,18 @@ impl PyJob {
     /// The stage that the work is in, and how much of all is done, 0 to 1; it never goes back.
     #[getter]
     fn progress(&self) -> (String, f64) {
-        either!(self, work => work.progress())
+        any!(self, work => work.progress())
     }
 
     /// Whether the work has ended, in whatever way.
     #[getter]
     fn done(&self) -> bool {
-        either!(self, work => work.wait(Duration::ZERO))
+        any!(self, work => work.wait(Duration::ZERO))
     }
 
     /// Asks the work to stop; `result()` then raises `Cancelled`, unless it was done already.
     fn cancel(&self) {
-        either!(self, work => work.cancel());
+        any!(self, work => work.cancel());
     }
 
     /// Waits until the work has ended, `timeout` seconds at most, and returns whether it has.
@@ -98,19 +109,16 @@ impl PyJob {
     fn wait(&self, py: Python<'_>, timeout: Option<f64>) -> PyResult<bool> {
         let seconds = timeout.map(|seconds| Duration::try_from_secs_f64(seconds.max(0.0))).transpose();
         let limit = seconds.map_err(|e| errors::option(py, format!("timeout: {e}"), "give fewer seconds, or None"))?;
-        either!(self, work => work::wait_for(work, py, limit))
+        any!(self, work => work::wait_for(work, py, limit))
     }
 
-    /// Waits until the work has ended and returns what came of it, the same each time; raises what `simplify` or
-    /// `remesh` would have raised.
+    /// Waits until the work has ended and returns what came of it, the same each time; raises what
+    /// `make`, `simplify` or `remesh` would have raised.
     fn result(&self, py: Python<'_>) -> PyResult<Py<PyAny>> {
-        match &self.0 {
-            Kind::Simplify(work) => Ok(Py::new(py, work::outcome(work, py)?)?.into_any()),
-            Kind::Remesh(work) => Ok(Py::new(py, work::outcome(work, py)?)?.into_any()),
-        }
+        any!(self, work => Ok(Py::new(py, work::outcome(work, py)?)?.into_any()))
     }
 
-    /// `Job[Simplified]` and `Job[Remeshed]` are types.
+    /// `Job[Made]`, `Job[Simplified]` and `Job[Remeshed]` are types.
     #[classmethod]
     fn __class_getitem__<'py>(cls: &Bound<'py, PyType>, item: &Bound<'py, PyAny>) -> PyResult<Bound<'py, PyAny>> {
         cls.py().import("types")?.getattr("GenericAlias")?.call1((cls, item))

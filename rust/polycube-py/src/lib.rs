@@ -6,9 +6,13 @@
 mod arrays;
 mod check;
 mod errors;
+mod hexes;
 mod job;
+mod layout;
+mod made;
 mod mesh;
 mod options;
+mod quads;
 mod remeshed;
 mod report;
 mod simplified;
@@ -24,11 +28,19 @@ mod native {
     #[pymodule_export]
     use crate::check::{PyViolation, check};
     #[pymodule_export]
+    use crate::hexes::PyHexes;
+    #[pymodule_export]
     use crate::job::PyJob;
+    #[pymodule_export]
+    use crate::layout::{PyLayout, PySingularEdge};
+    #[pymodule_export]
+    use crate::made::{PyMade, make};
     #[pymodule_export]
     use crate::mesh::{PyMesh, example, read, read_labels, read_pair};
     #[pymodule_export]
-    use crate::remeshed::{PyHexes, PyLayout, PyQuads, PyRemeshed, PySingularEdge, remesh};
+    use crate::quads::PyQuads;
+    #[pymodule_export]
+    use crate::remeshed::{PyRemeshed, remesh};
     #[pymodule_export]
     use crate::simplified::{PySimplified, PyTradeOff, simplify};
     #[pymodule_export]

@@ -4,6 +4,7 @@ use crate::arrays;
 use crate::errors;
 use polycube::align::{Effort, Guides, SolverKind, Strategy};
 use polycube::layout::Objective;
+use polycube::make::MakeOptions;
 use polycube::remesh::{RemeshOptions, Size};
 use polycube::simplify::SimplifyOptions;
 use polycube::structure::Tolerance;
@@ -84,6 +85,25 @@ impl<'py> Keywords<'py> {
                 Err(PyTypeError::new_err(format!("{}() got an unexpected keyword argument '{name}'", self.function)))
             }
         }
+    }
+
+    /// Refuses arguments that have no effect, with the reason and the remedy.
+    pub fn refuse(&self, names: &[&str], reason: &str, remedy: &str) -> PyResult<()> {
+        for name in names {
+            if self.take::<Bound<'py, PyAny>>(name)?.is_some() {
+                return Err(errors::option(self.py(), format!("{name} has no effect: {reason}"), remedy));
+            }
+        }
+        Ok(())
+    }
+
+    /// Takes how a polycube is made.
+    pub fn make(&self) -> PyResult<MakeOptions> {
+        let default = MakeOptions::default();
+        let options =
+            MakeOptions { detail: self.take("detail")?.unwrap_or(default.detail), corners: self.take("corners")? };
+        options.check().map_err(|e| errors::raise(self.py(), &e, None))?;
+        Ok(options)
     }
 
     /// Takes the labels of the polycube's boundary faces.

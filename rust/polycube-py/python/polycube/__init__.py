@@ -10,6 +10,13 @@ the same vertices and cells. Arrays are numpy arrays, indices count from 0, labe
 (937, 111)
 >>> meshes = polycube.remesh(shape, cube, hexes=2000)
 >>> meshes.hexes.mesh.write("cube-spikes.vtu")
+
+`make` makes a polycube of any closed surface; `remesh` does so by itself where it is given a shape alone.
+
+>>> surface, _ = polycube.example("ring", kind="triangles")
+>>> made = polycube.make(surface)
+>>> made.shape.cells.shape == made.polycube.cells.shape
+True
 """
 
 from ._native import (
@@ -18,6 +25,7 @@ from ._native import (
     Hexes,
     Job,
     Layout,
+    Made,
     Mesh,
     Quads,
     Remeshed,
@@ -29,6 +37,7 @@ from ._native import (
     __version__,
     check,
     example,
+    make,
     read,
     read_labels,
     read_pair,
@@ -63,6 +72,7 @@ __all__ = [
     "InvalidPolycube",
     "Job",
     "Layout",
+    "Made",
     "Mesh",
     "Mismatch",
     "ParseError",
@@ -78,6 +88,7 @@ __all__ = [
     "__version__",
     "check",
     "example",
+    "make",
     "read",
     "read_labels",
     "read_pair",

@@ -14,6 +14,7 @@ __all__ = [
     "Hexes",
     "Job",
     "Layout",
+    "Made",
     "Mesh",
     "Quads",
     "Remeshed",
@@ -26,6 +27,7 @@ __all__ = [
     "_panic",
     "check",
     "example",
+    "make",
     "read",
     "read_labels",
     "read_pair",
@@ -250,7 +252,22 @@ class Layout:
     def singular_edges(self) -> list[SingularEdge]: ...
 
 @final
+class Made:
+    @property
+    def shape(self) -> Mesh: ...
+    @property
+    def polycube(self) -> Mesh: ...
+    @property
+    def labels(self) -> npt.NDArray[np.int8]: ...
+    @property
+    def good(self) -> bool: ...
+    @property
+    def report(self) -> dict[str, Any]: ...
+
+@final
 class Remeshed:
+    @property
+    def made(self) -> Made | None: ...
     @property
     def simplified(self) -> Simplified: ...
     @property
@@ -269,6 +286,8 @@ class Remeshed:
 @final
 class Job(Generic[_T_co]):
     def __class_getitem__(cls, item: Any) -> GenericAlias: ...
+    @staticmethod
+    def make(shape: Mesh, *, detail: float = 0.5, corners: int | None = None) -> Job[Made]: ...
     @staticmethod
     def simplify(
         polycube: Mesh,
@@ -295,8 +314,10 @@ class Job(Generic[_T_co]):
     @staticmethod
     def remesh(
         shape: Mesh,
-        polycube: Mesh,
+        polycube: Mesh | None = None,
         *,
+        detail: float | None = None,
+        corners: int | None = None,
         labels: npt.ArrayLike | None = None,
         hexes: int | None = None,
         edge_length: float | None = None,
@@ -347,6 +368,14 @@ def structure(
     angle_tolerance: float = 30.0,
     level_tolerance: float = 0.05,
 ) -> Structure: ...
+def make(
+    shape: Mesh,
+    *,
+    detail: float = 0.5,
+    corners: int | None = None,
+    progress: _Progress | None = None,
+    cancel: _Flag | None = None,
+) -> Made: ...
 def simplify(
     polycube: Mesh,
     shape: Mesh | None = None,
@@ -373,8 +402,10 @@ def simplify(
 ) -> Simplified: ...
 def remesh(
     shape: Mesh,
-    polycube: Mesh,
+    polycube: Mesh | None = None,
     *,
+    detail: float | None = None,
+    corners: int | None = None,
     labels: npt.ArrayLike | None = None,
     hexes: int | None = None,
     edge_length: float | None = None,

@@ -1,0 +1,111 @@
+//! The hexahedra of a meshed shape.
+
+use crate::arrays::{flat, matrix, vector};
+use crate::mesh::PyMesh;
+use polycube::measure::CellMeasures;
+use polycube::mesh::{CellField, Point};
+use polycube::remesh::Hexes;
+use pyo3::prelude::*;
+use std::path::PathBuf;
+use std::sync::Arc;
+
+/// A hexahedral mesh of the shape. Arrays are read-only.
+#[pyclass(frozen, module = "polycube", name = "Hexes")]
+#[derive(Clone)]
+pub struct PyHexes(Arc<HexParts>);
+
+struct HexParts {
+    mesh: PyMesh,
+    polycube: Vec<Point>,
+    fields: Vec<CellField>,
+    label: Vec<i8>,
+    block_id: Vec<u32>,
+    scaled_jacobian: Vec<f64>,
+    measures: CellMeasures,
+}
+
+impl From<Hexes> for PyHexes {
+    fn from(hexes: Hexes) -> Self {
+        let (fields, scaled_jacobian, measures) = (hexes.fields(), hexes.quality().of_cell, hexes.measures());
+        let Hexes { mesh, polycube, block_id, label, .. } = hexes;
+        Self(Arc::new(HexParts { mesh: mesh.into(), polycube, fields, label, block_id, scaled_jacobian, measures }))
+    }
+}
+
+#[pymethods]
+impl PyHexes {
+    /// The mesh, in units of the shape; nodes in VTK's order.
+    #[getter]
+    fn mesh(&self) -> PyMesh {
+        self.0.mesh.clone()
+    }
+
+    /// `mesh.points`: (n, 3) float64.
+    #[getter]
+    fn points<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
+        PyMesh::points(&Bound::new(py, self.mesh())?)
+    }
+
+    /// `mesh.cells`: (m, 8) uint32.
+    #[getter]
+    fn cells<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
+        PyMesh::cells(&Bound::new(py, self.mesh())?)
+    }
+
+    /// The same vertices in the polycube: (n, 3) float64, in lattice units.
+    #[getter]
+    fn polycube_points<'py>(slf: &Bound<'py, Self>) -> PyResult<Bound<'py, PyAny>> {
+        matrix(slf, 3, |h| flat(&h.0.polycube))
+    }
+
+    /// The label of every hexahedron's facet at the surface: (m,) int8, 0 to 5; -1 inside.
+    #[getter]
+    fn label<'py>(slf: &Bound<'py, Self>) -> PyResult<Bound<'py, PyAny>> {
+        vector(slf, |h| &h.0.label)
+    }
+
+    /// The block of every hexahedron: (m,) uint32, a row of `Remeshed.layout.blocks.cells`.
+    #[getter]
+    fn block_id<'py>(slf: &Bound<'py, Self>) -> PyResult<Bound<'py, PyAny>> {
+        vector(slf, |h| &h.0.block_id)
+    }
+
+    /// The scaled Jacobian of every hexahedron: (m,) float64, 1 for a cube, 0 or less for an inverted one.
+    #[getter]
+    fn scaled_jacobian<'py>(slf: &Bound<'py, Self>) -> PyResult<Bound<'py, PyAny>> {
+        vector(slf, |h| &h.0.scaled_jacobian)
+    }
+
+    /// The longest edge of every hexahedron over its shortest: (m,) float64, 1 for a cube.
+    #[getter]
+    fn edge_ratio<'py>(slf: &Bound<'py, Self>) -> PyResult<Bound<'py, PyAny>> {
+        vector(slf, |h| &h.0.measures.edge_ratio)
+    }
+
+    /// The least corner determinant of every hexahedron over the mean of all: (m,) float64.
+    #[getter]
+    fn determinant<'py>(slf: &Bound<'py, Self>) -> PyResult<Bound<'py, PyAny>> {
+        vector(slf, |h| &h.0.measures.determinant)
+    }
+
+    /// The largest non-orthogonality of every hexahedron's faces, as OpenFOAM defines it: (m,) float64, in degrees.
+    #[getter]
+    fn non_orthogonality<'py>(slf: &Bound<'py, Self>) -> PyResult<Bound<'py, PyAny>> {
+        vector(slf, |h| &h.0.measures.non_orthogonality)
+    }
+
+    /// The largest skewness of every hexahedron's faces, as OpenFOAM defines it: (m,) float64.
+    #[getter]
+    fn skewness<'py>(slf: &Bound<'py, Self>) -> PyResult<Bound<'py, PyAny>> {
+        vector(slf, |h| &h.0.measures.skewness)
+    }
+
+    /// Writes the mesh with `block_id`, `label` and `scaled_jacobian`, where the format holds them; see `Mesh.write`.
+    fn write(&self, py: Python<'_>, path: PathBuf) -> PyResult<()> {
+        self.0.mesh.save(py, &path, &self.0.fields)
+    }
+
+    fn __repr__(&self) -> String {
+        format!("Hexes({} hexes)", self.0.label.len())
+    }
+}

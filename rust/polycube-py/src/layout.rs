@@ -1,0 +1,91 @@
+//! Blocks and patches of a meshed shape as single cells.
+
+use crate::arrays::{flat, matrix, vector};
+use crate::mesh::PyMesh;
+use polycube::mesh::Point;
+use polycube::remesh::Layout;
+use pyo3::prelude::*;
+use std::sync::Arc;
+
+/// A line of edges at which an irregular number of blocks meet.
+#[pyclass(frozen, module = "polycube", name = "SingularEdge")]
+pub struct PySingularEdge {
+    points: Vec<Point>,
+    valence: u32,
+}
+
+#[pymethods]
+impl PySingularEdge {
+    /// Its vertices in order: (k, 3) float64 with k of at least 2, in units of the shape; read-only.
+    #[getter]
+    fn points<'py>(slf: &Bound<'py, Self>) -> PyResult<Bound<'py, PyAny>> {
+        matrix(slf, 3, |e| flat(&e.points))
+    }
+
+    /// How many blocks meet at it: without padding, on the surface, 1 or 3; with padding, inside, 3, 5 or more.
+    #[getter]
+    fn valence(&self) -> u32 {
+        self.valence
+    }
+
+    fn __repr__(&self) -> String {
+        format!("SingularEdge({} points, valence {})", self.points.len(), self.valence)
+    }
+}
+
+/// Blocks and patches as single cells on the shape.
+#[pyclass(frozen, module = "polycube", name = "Layout")]
+#[derive(Clone)]
+pub struct PyLayout(Arc<LayoutParts>);
+
+struct LayoutParts {
+    patches: PyMesh,
+    patch_label: Vec<i8>,
+    blocks: Option<PyMesh>,
+    singular: Vec<(Vec<Point>, u32)>,
+}
+
+impl From<Layout> for PyLayout {
+    fn from(layout: Layout) -> Self {
+        let Layout { blocks, patches, patch_label, singular } = layout;
+        Self(Arc::new(LayoutParts {
+            patches: patches.into(),
+            patch_label,
+            blocks: blocks.map(PyMesh::from),
+            singular: singular.into_iter().map(|e| (e.points, e.valence)).collect(),
+        }))
+    }
+}
+
+#[pymethods]
+impl PyLayout {
+    /// One quadrilateral for each patch, counter-clockwise seen from outside.
+    #[getter]
+    fn patches(&self) -> PyMesh {
+        self.0.patches.clone()
+    }
+
+    /// The label of every patch: (p,) int8, 0 to 5 for +X -X +Y -Y +Z -Z.
+    #[getter]
+    fn patch_label<'py>(slf: &Bound<'py, Self>) -> PyResult<Bound<'py, PyAny>> {
+        vector(slf, |l| &l.0.patch_label)
+    }
+
+    /// One hexahedron for each block; None for a surface alone.
+    #[getter]
+    fn blocks(&self) -> Option<PyMesh> {
+        self.0.blocks.clone()
+    }
+
+    /// The edges of the polycube and, with padding, those from its corners to the surface.
+    #[getter]
+    fn singular_edges(&self) -> Vec<PySingularEdge> {
+        let edges = self.0.singular.iter();
+        edges.map(|(points, valence)| PySingularEdge { points: points.clone(), valence: *valence }).collect()
+    }
+
+    fn __repr__(&self) -> String {
+        let blocks = self.0.blocks.as_ref().map(|b| format!(", {} blocks", b.0.cells().len())).unwrap_or_default();
+        format!("Layout({} patches{blocks})", self.0.patch_label.len())
+    }
+}

@@ -1,0 +1,111 @@
+//! The quadrilaterals of a meshed shape.
+
+use crate::arrays::{flat, matrix, vector};
+use crate::mesh::PyMesh;
+use polycube::mesh::{CellField, Point};
+use polycube::remesh::Quads;
+use pyo3::prelude::*;
+use std::path::PathBuf;
+use std::sync::Arc;
+
+/// A quadrilateral mesh of the shape's surface. Arrays are read-only.
+#[pyclass(frozen, module = "polycube", name = "Quads")]
+#[derive(Clone)]
+pub struct PyQuads(Arc<QuadParts>);
+
+struct QuadParts {
+    mesh: PyMesh,
+    polycube: Vec<Point>,
+    fields: Vec<CellField>,
+    label: Vec<i8>,
+    patch_id: Vec<u32>,
+    block_id: Vec<u32>,
+    scaled_jacobian: Vec<f64>,
+    feature_edges: Vec<u32>,
+}
+
+impl From<Quads> for PyQuads {
+    fn from(quads: Quads) -> Self {
+        let feature_edges = quads.feature_edges().into_flattened();
+        let fields = quads.fields();
+        let scaled_jacobian = quads.quality().of_cell;
+        let Quads { mesh, polycube, label, patch_id, block_id, .. } = quads;
+        Self(Arc::new(QuadParts {
+            mesh: mesh.into(),
+            polycube,
+            fields,
+            label,
+            patch_id,
+            block_id,
+            scaled_jacobian,
+            feature_edges,
+        }))
+    }
+}
+
+#[pymethods]
+impl PyQuads {
+    /// The mesh, in units of the shape, counter-clockwise seen from outside. Its vertices lie on the shape.
+    #[getter]
+    fn mesh(&self) -> PyMesh {
+        self.0.mesh.clone()
+    }
+
+    /// `mesh.points`: (n, 3) float64.
+    #[getter]
+    fn points<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
+        PyMesh::points(&Bound::new(py, self.mesh())?)
+    }
+
+    /// `mesh.cells`: (m, 4) uint32.
+    #[getter]
+    fn cells<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
+        PyMesh::cells(&Bound::new(py, self.mesh())?)
+    }
+
+    /// The same vertices on the polycube: (n, 3) float64, in lattice units.
+    #[getter]
+    fn polycube_points<'py>(slf: &Bound<'py, Self>) -> PyResult<Bound<'py, PyAny>> {
+        matrix(slf, 3, |q| flat(&q.0.polycube))
+    }
+
+    /// The label of every quadrilateral: (m,) int8, 0 to 5 for +X -X +Y -Y +Z -Z.
+    #[getter]
+    fn label<'py>(slf: &Bound<'py, Self>) -> PyResult<Bound<'py, PyAny>> {
+        vector(slf, |q| &q.0.label)
+    }
+
+    /// The patch of every quadrilateral: (m,) uint32, a row of `Remeshed.layout.patches.cells`.
+    #[getter]
+    fn patch_id<'py>(slf: &Bound<'py, Self>) -> PyResult<Bound<'py, PyAny>> {
+        vector(slf, |q| &q.0.patch_id)
+    }
+
+    /// The padding block below every quadrilateral: (m,) uint32, as in `Hexes.block_id`.
+    #[getter]
+    fn block_id<'py>(slf: &Bound<'py, Self>) -> PyResult<Bound<'py, PyAny>> {
+        vector(slf, |q| &q.0.block_id)
+    }
+
+    /// How near every quadrilateral is to a rectangle: (m,) float64 in -1..1, the sine of its worst corner. 0 or below
+    /// where a corner is flat or reflex.
+    #[getter]
+    fn scaled_jacobian<'py>(slf: &Bound<'py, Self>) -> PyResult<Bound<'py, PyAny>> {
+        vector(slf, |q| &q.0.scaled_jacobian)
+    }
+
+    /// The mesh edges that lie on edges of the polycube: (e, 2) uint32, the lower vertex first, in ascending order.
+    #[getter]
+    fn feature_edges<'py>(slf: &Bound<'py, Self>) -> PyResult<Bound<'py, PyAny>> {
+        matrix(slf, 2, |q| &q.0.feature_edges)
+    }
+
+    /// Writes the mesh with `label`, `patch_id` and `block_id`, where the format holds them; see `Mesh.write`.
+    fn write(&self, py: Python<'_>, path: PathBuf) -> PyResult<()> {
+        self.0.mesh.save(py, &path, &self.0.fields)
+    }
+
+    fn __repr__(&self) -> String {
+        format!("Quads({} quads)", self.0.label.len())
+    }
+}

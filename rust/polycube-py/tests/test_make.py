@@ -1,0 +1,125 @@
+"""`make`, and `remesh` of a shape alone: validity, errors with their places, and equality with the command."""
+
+import threading
+
+import numpy as np
+import pytest
+
+import polycube
+
+
+@pytest.fixture(scope="module")
+def shape() -> polycube.Mesh:
+    return polycube.example("ring", kind="triangles")[0]
+
+
+@pytest.fixture(scope="module")
+def made(shape) -> polycube.Made:
+    return polycube.make(shape)
+
+
+def test_a_valid_polycube_of_the_shape(shape, made):
+    assert polycube.check(made.polycube, made.labels, shape=made.shape) == []
+    assert np.array_equal(made.shape.cells, made.polycube.cells)
+    assert np.array_equal(made.shape.points[: len(shape.points)], shape.points)
+    assert len(made.shape.points) - len(shape.points) == made.report["added"]
+    found = polycube.structure(made.polycube, made.labels)
+    assert (found.genus, found.components) == (1, 1)
+    assert made.report["genus"] == 1
+    sizes = [len(found.corners), len(found.edges), len(found.facet_label)]
+    assert [made.report[name] for name in ("corners", "edges", "facets")] == sizes
+    assert (made.labels.dtype, len(made.labels)) == (np.int8, len(made.shape.cells))
+    assert not made.labels.flags.writeable
+    levels = made.polycube.points[made.polycube.cells[:, 0], made.labels // 2]
+    assert np.array_equal(levels, np.round(levels))
+
+
+def test_triangles_are_turned_over_where_it_is_not_good(made):
+    p = made.polycube.points[made.polycube.cells]
+    normals = np.cross(p[:, 1] - p[:, 0], p[:, 2] - p[:, 0])
+    axis, sign = made.labels // 2, 1 - 2 * (made.labels % 2)
+    outward = normals[np.arange(len(normals)), axis] * sign
+    assert set(np.flatnonzero(outward <= 0)) == set(made.report["folded"])
+    assert made.good == (not made.report["folded"])
+
+
+def test_fewer_corners(shape, made):
+    few = polycube.make(shape, detail=0.2)
+    assert few.report["corners"] <= made.report["corners"]
+    assert few.report["genus"] == 1
+    assert repr(few) == f"Made({few.report['corners']} corners, {few.report['facets']} facets)"
+
+
+def test_the_same_bytes_as_the_command(tmp_path, command, shape, made):
+    shape.write(tmp_path / "shape.off")
+    command("make", tmp_path / "shape.off", "-o", tmp_path / "out")
+    made.shape.write(tmp_path / "own.shape.off")
+    made.polycube.write(tmp_path / "own.polycube.off")
+    for kind in ("shape", "polycube"):
+        assert (tmp_path / f"own.{kind}.off").read_bytes() == (tmp_path / "out" / f"{kind}.off").read_bytes()
+    labels = polycube.read_labels(tmp_path / "out" / "polycube.labels", made.polycube)
+    assert np.array_equal(labels, made.labels)
+
+
+def test_a_shape_alone_is_meshed(shape, made):
+    stages = []
+    meshes = polycube.remesh(shape, hexes=1500, progress=lambda *now: stages.append(now))
+    assert np.array_equal(meshes.made.shape.points, made.shape.points)
+    assert np.array_equal(meshes.simplified.polycube.cells, made.polycube.cells)
+    assert meshes.report["inverted"] == 0
+    fractions = [fraction for _, fraction in stages]
+    assert fractions == sorted(fractions)
+    assert "loops" in {stage for stage, _ in stages}
+    both = polycube.remesh(made.shape, made.polycube, labels=made.labels, hexes=1500)
+    assert both.made is None
+    assert np.array_equal(both.hexes.points, meshes.hexes.points)
+
+
+def test_a_job(shape, made):
+    job = polycube.Job.make(shape)
+    assert np.array_equal(job.result().polycube.points, made.polycube.points)
+    with pytest.raises(polycube.InvalidOption):
+        polycube.Job.make(shape, detail=-1)
+
+
+def test_an_event_cancels(shape):
+    cancel = threading.Event()
+    with pytest.raises(polycube.Cancelled):
+        polycube.make(shape, progress=lambda stage, fraction: cancel.set(), cancel=cancel)
+
+
+def test_an_open_surface_is_refused_with_the_edge(shape):
+    opened = polycube.Mesh(shape.points, shape.cells[1:])
+    with pytest.raises(polycube.InvalidMesh) as caught:
+        polycube.make(opened)
+    error = caught.value
+    assert error.element == "edge"
+    assert set(error.elements) < set(shape.cells[0])
+    assert error.place == pytest.approx(shape.points[list(error.elements)].mean(axis=0))
+
+
+def test_a_volume_is_refused(pair):
+    with pytest.raises(polycube.Unsupported):
+        polycube.make(pair[0])
+
+
+@pytest.mark.parametrize("option", [{"detail": 1.5}, {"detail": float("nan")}])
+def test_options_out_of_range(shape, option):
+    with pytest.raises(polycube.InvalidOption):
+        polycube.make(shape, **option)
+
+
+def test_unknown_options(shape):
+    with pytest.raises(TypeError, match="simplicity"):
+        polycube.make(shape, simplicity=1)
+
+
+@pytest.mark.parametrize("option", [{"detail": 0.3}, {"corners": 16}])
+def test_options_of_making_have_no_effect_with_a_polycube(surfaces, option):
+    with pytest.raises(polycube.InvalidOption, match=next(iter(option))):
+        polycube.remesh(*surfaces, **option)
+
+
+def test_labels_need_the_polycube(shape):
+    with pytest.raises(polycube.InvalidOption, match="labels"):
+        polycube.remesh(shape, labels=np.zeros(len(shape.cells), int))
