@@ -7,7 +7,7 @@ use crate::layout::{Objective, count};
 use crate::map::morph;
 use crate::mesh::{Mesh, Point};
 use crate::range::Range;
-use crate::structure::{Arrangement, Edge, Overlaps, Polycube, Tolerance, placement_of};
+use crate::structure::{Arrangement, Edge, Overlaps, Polycube, Tolerance, ascending, placement_of};
 use std::time::Instant;
 
 mod compatibility;
@@ -301,7 +301,7 @@ pub fn fit(polycube: &Polycube, mesh: &Mesh, placement: &[f64], scale: f64, cont
     }
     check_placement(polycube, placement)?;
     let scaled = mesh.moved(|p| p * scale)?;
-    let fixed = straight_edges(polycube, scaled.points(), placement);
+    let fixed = straight_edges(polycube, scaled.points(), placement, scale);
     let fitted = morph(&scaled, &fixed, context)?;
     scaled.with_points(fitted)
 }
@@ -322,18 +322,23 @@ fn check_placement(polycube: &Polycube, placement: &[f64]) -> Result<()> {
         .remedy("keep the upper level of every edge above its lower one"))
 }
 
-/// What the morph must meet: corners and facets, and along every polycube edge the vertices stretched evenly between
-/// its ends. Left free, they overshoot where triangles are obtuse, and the edge turns back on itself.
-fn straight_edges(polycube: &Polycube, points: &[Point], placement: &[f64]) -> Vec<[Option<f64>; 3]> {
+/// What the morph must meet: corners and facets, and along every polycube edge the vertices, put in order and stretched
+/// evenly between its ends. Left free, they overshoot where triangles are obtuse, and the edge turns back on itself.
+fn straight_edges(polycube: &Polycube, points: &[Point], placement: &[f64], scale: f64) -> Vec<[Option<f64>; 3]> {
     let mut fixed = polycube.prescribed(placement);
     for (edge, chain) in polycube.structure.edges.iter().zip(&polycube.chains) {
-        let at = |v: u32| points[v as usize][edge.axis];
-        let (low, high) = (at(chain[0]), at(chain[chain.len() - 1]));
+        let mut at: Vec<f64> = chain.iter().map(|&v| points[v as usize][edge.axis]).collect();
+        if !at.is_sorted_by(|a, b| a < b) {
+            let [low, high] = polycube.structure.ends(edge).map(|l| polycube.placement[l as usize] * scale);
+            let inner = ascending(&at[1..at.len() - 1], [low, high]);
+            at = [&[low], &inner[..], &[high]].concat();
+        }
+        let (low, high) = (at[0], at[at.len() - 1]);
         let [from, to] = polycube.structure.ends(edge).map(|l| placement[l as usize]);
-        for &v in &chain[1..chain.len() - 1] {
-            let part = if low < high { ((at(v) - low) / (high - low)).clamp(0.0, 1.0) } else { 0.5 };
+        for (&v, x) in chain.iter().zip(&at).take(chain.len() - 1).skip(1) {
+            let part = ((x - low) / (high - low)).clamp(0.0, 1.0);
             let moved = (from - low) * (1.0 - part) + (to - high) * part;
-            fixed[v as usize][edge.axis] = Some((at(v) + moved).clamp(from, to));
+            fixed[v as usize][edge.axis] = Some((x + moved).clamp(from, to));
         }
     }
     fixed

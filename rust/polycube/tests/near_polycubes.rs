@@ -267,11 +267,52 @@ fn a_flattened_cube_has_edges_without_length() {
 }
 
 #[test]
-fn an_edge_that_turns_back_is_named() {
-    let mesh = cube(3);
-    let [low, high] = [1.0, 2.0].map(|z| vertex(&mesh, [0.0, 0.0, z]));
-    let mesh = with_vertex(&with_vertex(&mesh, low, |p| p.z = 1.7), high, |p| p.z = 1.3);
-    assert_eq!(violations_of(&mesh, None), [Violation::NonMonotoneEdge { edge: [low, high] }]);
+fn an_edge_that_is_folded_is_named_with_its_run() {
+    let mesh = cube(4);
+    let [below, low, high] = [1.0, 2.0, 3.0].map(|z| vertex(&mesh, [0.0, 0.0, z]));
+    let mesh = with_vertex(&with_vertex(&mesh, low, |p| p.z = 2.45), high, |p| p.z = 1.55);
+    let [Violation::NonMonotoneEdge { edge, run, vertices, distance }] = violations_of(&mesh, None)[..] else {
+        panic!()
+    };
+    assert_eq!((edge, run, vertices), ([low, high], [low, high], 2));
+    assert!((distance - 0.45).abs() < 1e-12);
+    let lenient = Tolerance { distance: 0.2, ..Tolerance::default() };
+    assert_eq!(Polycube::new(&mesh, None, &lenient).unwrap().deviation.out_of_order, 2);
+    // One vertex beyond the corner: it goes back to the corner, and takes nothing with it.
+    let beyond = with_vertex(&cube(4), below, |p| p.z = -0.8);
+    let found = violations_of(&beyond, None);
+    let [Violation::NonMonotoneEdge { run, vertices: 1, .. }] = found[..] else { panic!("{found:?}") };
+    assert_eq!(run, [below; 2]);
+}
+
+/// A cell of the surface that is turned over or without area.
+fn has_flat_face(mesh: &Mesh, labels: &[i8]) -> bool {
+    !polycube::measure::flipped(mesh, labels).unwrap().is_empty()
+}
+
+/// Two neighbours on a straight edge change places, by as little as rounding and by as much as is tolerated.
+#[test]
+fn neighbours_out_of_order_are_put_in_order() {
+    for kind in [CellKind::Triangles, CellKind::Quads, CellKind::Tetrahedra, CellKind::Hexahedra] {
+        for back in [1e-8, 1e-5, 1e-3, 0.2] {
+            let clean = surface(&[([0; 3], [6, 3, 3]), ([0; 3], [3, 6, 3])], kind);
+            let labels = common::labels(&read(&clean));
+            let [one, two] = [1.0, 2.0].map(|z| vertex(&clean, [0.0, 0.0, z]));
+            let mesh = with_vertex(&clean, one, |p| p.z = 1.5 + back / 2.0);
+            let mesh = with_vertex(&mesh, two, |p| p.z = 1.5 - back / 2.0);
+            let input = Input { polycube: &mesh, shape: Some(&clean), labels: Some(&labels) };
+            let options = SimplifyOptions { scale: Some(2.0), ..SimplifyOptions::default() };
+            let result = polycube::simplify::simplify(&input, &options, &polycube::Context::default()).unwrap();
+            let before = result.report.before;
+            assert_eq!((before.surface_patches, before.blocks), (14, 3), "{kind}, {back}");
+            assert_eq!(result.report.deviation.out_of_order, 2, "{kind}, {back}");
+            assert!(result.report.deviation.distance >= back / 2.1);
+            assert!(result.report.notes.contains(&polycube::simplify::Note::OutOfOrder(2)));
+            let ordered = result.polycube.unwrap();
+            assert!(ordered.points()[one as usize].z < ordered.points()[two as usize].z, "{kind}, {back}");
+            assert!(!has_flat_face(&ordered, &labels), "{kind}, {back}");
+        }
+    }
 }
 
 #[test]

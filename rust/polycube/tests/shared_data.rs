@@ -4,11 +4,12 @@ mod common;
 
 use common::models::{models, reference};
 use common::{dense, labels, paper, read, simplify};
+use nalgebra::Vector3;
 use polycube::layout::{Counts, count};
 use polycube::mesh::Mesh;
 use polycube::parts::morph;
-use polycube::parts::{perturb, scale};
-use polycube::structure::{Arrangement, placement_of};
+use polycube::parts::{SplitMix64, perturb, scale};
+use polycube::structure::{Arrangement, Polycube, Tolerance, placement_of};
 use polycube::{Context, Input, Simplified, SimplifyOptions};
 use serde_json::Value;
 
@@ -123,4 +124,33 @@ fn simplifying_again_changes_nothing() {
         assert_eq!(twice.levels, once.levels, "{name}");
         assert_eq!(common::bits(&twice.polycube.unwrap()), common::bits(&result), "{name}");
     }
+}
+
+/// The vertices moved within and off their facets by up to two percent of the size, labels as they were: corners, edges and
+/// facets are those of the model, and so are the counts as long as facets of one plane are known for such.
+#[test]
+fn models_with_noise_have_the_structure_of_the_models() {
+    for (name, mesh) in models() {
+        let clean = read(&mesh);
+        let own = labels(&clean);
+        let counts = |polycube: &Polycube| count(&Arrangement::new(&polycube.structure, &polycube.placement));
+        let size = (0..3).map(|a| extent(&mesh, a).powi(2)).sum::<f64>().sqrt();
+        for seed in 0..common::cases(3) {
+            let mut random = SplitMix64::new(seed);
+            for reach in [1e-9, 1e-4, 0.02] {
+                let mut off = || reach * size * (2.0 * random.unit() - 1.0);
+                let moved = mesh.moved(|p| p + Vector3::new(off(), off(), off())).unwrap();
+                let found = Polycube::new(&moved, Some(&own), &Tolerance::default());
+                let found = found.unwrap_or_else(|v| panic!("{name} {seed} {reach}: {}", v[0]));
+                assert_eq!(found.structure, clean.structure, "{name} {seed} {reach}");
+                assert!(found.deviation.distance > 0.0 && found.deviation.distance <= 0.05 * size, "{name}");
+                assert!(reach > 1e-9 || counts(&found) == counts(&clean), "{name} {seed}");
+            }
+        }
+    }
+}
+
+fn extent(mesh: &Mesh, axis: usize) -> f64 {
+    let along = mesh.points().iter().map(|p| p[axis]);
+    along.clone().fold(f64::NEG_INFINITY, f64::max) - along.fold(f64::INFINITY, f64::min)
 }

@@ -74,7 +74,7 @@ struct Found {
 /// Prints what was found.
 pub fn run(args: &Args) -> Result<ExitCode> {
     let file = &args.mesh.polycube;
-    let meshes = MeshFiles::read(file, None, args.mesh.labels.file.as_deref())?;
+    let meshes = MeshFiles::read(file, None, &args.mesh.labels)?;
     let polycube = read_structure(&meshes.input(), &args.mesh.tolerance.get()).map_err(Failure::in_file(file))?;
     let mut found = Found::new(file.display().to_string(), &meshes.polycube, &polycube);
     found.facet_list = args.facets.then(|| facets(&polycube));
@@ -129,10 +129,11 @@ impl Found {
     }
 
     fn rows(&self) -> Vec<(&'static str, String)> {
-        let Deviation { degrees, distance } = self.deviation;
-        let deviation = match degrees == 0.0 && distance == 0.0 {
-            true => "none, it is exact".to_owned(),
-            false => format!("{} degrees, {} units", short(degrees), short(distance)),
+        let Deviation { degrees, distance, out_of_order } = self.deviation;
+        let deviation = match (degrees == 0.0 && distance == 0.0, out_of_order) {
+            (true, 0) => "none, it is exact".to_owned(),
+            (_, 0) => format!("{} degrees, {} units", short(degrees), short(distance)),
+            (_, n) => format!("{} degrees, {} units, {n} vertices out of order", short(degrees), short(distance)),
         };
         let [x, y, z] = self.levels.each_ref().map(Vec::len);
         vec![

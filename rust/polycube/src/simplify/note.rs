@@ -8,6 +8,8 @@ use std::fmt;
 pub enum Note {
     /// Rounding to the lattice made the surface touch or cross itself in so many places.
     Broken(usize),
+    /// So many vertices along polycube edges of the input were out of order.
+    OutOfOrder(usize),
     /// The strategy `best` could not search: the result is that of Algorithm 1.
     Unsearched,
     /// Corners move farther than they may.
@@ -86,6 +88,9 @@ impl fmt::Display for Note {
         match self {
             Self::Broken(n) => {
                 write!(f, "rounding to the lattice made the surface touch or cross itself in {n} places")
+            }
+            Self::OutOfOrder(n) => {
+                write!(f, "{n} vertices along polycube edges were out of order and were put in order")
             }
             Self::Unsearched => f.write_str(
                 "the result is that of Algorithm 1: there are more than 1022 levels on every axis, too many to search, \

@@ -50,10 +50,9 @@ pub struct SimplifyReport {
 impl SimplifyReport {
     /// What is known before the mesh is morphed.
     pub(super) fn new(polycube: &Polycube, alignment: &Alignment, strategy: Strategy, scale: f64) -> Self {
-        let notes = match alignment.broken.len() {
-            0 => Vec::new(),
-            n => vec![Note::Broken(n)],
-        };
+        let noted = |count: usize, note: fn(usize) -> Note| (count > 0).then(|| note(count));
+        let disorder = noted(polycube.deviation.out_of_order, Note::OutOfOrder);
+        let broken = noted(alignment.broken.len(), Note::Broken);
         Self {
             strategy,
             scale,
@@ -70,7 +69,7 @@ impl SimplifyReport {
             flipped: Flipped::default(),
             deviation: polycube.deviation,
             distortion: None,
-            notes,
+            notes: disorder.into_iter().chain(broken).collect(),
         }
     }
 

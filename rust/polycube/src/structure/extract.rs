@@ -1,6 +1,7 @@
 //! From charts to corners, edges, facets and levels.
 
 use super::charts::Charts;
+use super::order::disorder;
 use super::polycube::{Deviation, Polycube, Tolerance};
 use super::{Corner, Edge, Facet, HalfEdge, Level, Placement, Side, Structure, Surface, Violation};
 use crate::mesh::Point;
@@ -122,7 +123,7 @@ impl Skeleton {
         let vertex_levels = vertex_levels(&surface, &charts, &level_of, points.len());
         let distance = off_level(points, &vertex_levels, &placement, tolerance.distance * diagonal)?;
         let corners = self.corner_list(&surface, &charts, &vertex_levels);
-        let (edges, chains, sides) = self.edges(points, &surface, &charts, &vertex_levels, &placement)?;
+        let (edges, chains, sides) = self.edges(&surface, &charts, &vertex_levels, &placement)?;
         let mut facets: Vec<Facet> = charts
             .labels
             .iter()
@@ -135,6 +136,8 @@ impl Skeleton {
         }
         let mut structure = Structure { facets, edges, corners, levels };
         structure.count_corners();
+        let disorder = disorder(points, &structure, &chains, &placement, tolerance.distance * diagonal)?;
+        let distance = distance.max(disorder.distance);
         Ok(Polycube {
             structure,
             placement,
@@ -142,7 +145,7 @@ impl Skeleton {
             facet_of_face: charts.of_face,
             chains,
             vertex_levels,
-            deviation: Deviation { degrees, distance },
+            deviation: Deviation { degrees, distance, out_of_order: disorder.vertices },
         })
     }
 
@@ -185,7 +188,6 @@ impl Skeleton {
     #[expect(clippy::type_complexity, reason = "three parallel results of one pass")]
     fn edges(
         &self,
-        points: &[Point],
         surface: &Surface,
         charts: &Charts,
         vertex_levels: &[[Option<u32>; 3]],
@@ -215,7 +217,6 @@ impl Skeleton {
                 along.reverse();
                 facets.reverse();
             }
-            violations.extend(turns_back(points, &along, axis));
             let corner = |v: u32| self.corners.partition_point(|&c| c < v) as u32;
             edges.push(Edge { axis, corners: [corner(along[0]), corner(along[along.len() - 1])], facets });
             vertices.push(along);
@@ -291,12 +292,4 @@ fn off_level(
     let beyond = (0..).zip(&distances).filter(|(_, d)| **d > tolerance);
     let violations: Vec<_> = beyond.map(|(vertex, &distance)| Violation::OffLevel { vertex, distance }).collect();
     if violations.is_empty() { Ok(distances.into_iter().fold(0.0, f64::max)) } else { Err(violations) }
-}
-
-/// The mesh edges of a chain that go down along `axis`, by more than rounding.
-fn turns_back(points: &[Point], along: &[u32], axis: usize) -> Vec<Violation> {
-    let at = |v: u32| points[v as usize][axis];
-    let slack = 1e-9 * (at(along[along.len() - 1]) - at(along[0])).abs();
-    let back = along.windows(2).filter(|w| at(w[1]) < at(w[0]) - slack);
-    back.map(|w| Violation::NonMonotoneEdge { edge: [w[0], w[1]] }).collect()
 }

@@ -9,7 +9,8 @@ use crate::range::Range;
 pub struct Tolerance {
     /// Largest angle between a face and the nearest axis, in degrees; 0 to 45.
     pub degrees: f64,
-    /// Largest distance of a vertex from the plane of its chart, as a fraction of the bounding box's diagonal; 0 to 1.
+    /// Largest distance of a vertex from the plane of its chart, and from its place in order along a polycube edge, as
+    /// a fraction of the bounding box's diagonal; 0 to 1.
     pub distance: f64,
     /// Levels closer than this fraction of the bounding box's diagonal are taken to be equal; 0 to 1.
     pub merge: f64,
@@ -38,8 +39,11 @@ impl Tolerance {
 pub struct Deviation {
     /// Largest angle between a face and the axis of its label, in degrees.
     pub degrees: f64,
-    /// Largest distance of a vertex from the plane of its chart, in the units of the mesh.
+    /// Largest distance of a vertex from the plane of its chart, or from its place in order along a polycube edge, in
+    /// the units of the mesh.
     pub distance: f64,
+    /// How many vertices along polycube edges are out of order.
+    pub out_of_order: usize,
 }
 
 /// A [`Structure`] found on a mesh, with the way back to the mesh.

@@ -12,7 +12,7 @@ use std::fmt;
 /// 4. every face lies within the tolerance of an axis direction (or has a label of its own);
 /// 5. neighbouring charts look along different axes; every corner touches all three axes;
 /// 6. every chart is a planar region whose boundary loops have four corners or more;
-/// 7. polycube edges have a length and do not turn back; faces lie near the level of their chart;
+/// 7. polycube edges have a length and are not folded beyond the tolerance; faces lie near the level of their chart;
 /// 8. the surface neither touches nor crosses itself, and looks outward.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Violation {
@@ -84,10 +84,16 @@ pub enum Violation {
         /// Its end vertices.
         ends: [u32; 2],
     },
-    /// A polycube edge that turns back on itself.
+    /// A polycube edge that turns back on itself, by more than the tolerance.
     NonMonotoneEdge {
-        /// The vertices of the mesh edge that goes back.
+        /// The vertices of the mesh edge that goes back farthest.
         edge: [u32; 2],
+        /// The first and the last vertex of the run that is out of order.
+        run: [u32; 2],
+        /// How many vertices the run has.
+        vertices: usize,
+        /// How far one of them is from its place in order, in the units of the mesh.
+        distance: f64,
     },
     /// A vertex too far from the plane of a chart it belongs to.
     OffLevel {
@@ -139,7 +145,7 @@ impl Violation {
             | Self::NonManifoldEdge { edge }
             | Self::InconsistentOrientation { edge }
             | Self::OppositeCharts { edge }
-            | Self::NonMonotoneEdge { edge }
+            | Self::NonMonotoneEdge { edge, .. }
             | Self::ZeroLengthEdge { ends: edge } => Place::Edge(edge[0], edge[1]),
             Self::CrowdedCell { cell } | Self::InvertedCell { cell } => Place::Cell(cell),
         })
@@ -190,7 +196,10 @@ impl Violation {
             }
             Self::ChartWithHandle { .. } => "this face's chart has a handle, so it cannot be flat".into(),
             Self::ZeroLengthEdge { .. } => "this polycube edge has no length".into(),
-            Self::NonMonotoneEdge { .. } => "the polycube edge turns back on itself here".into(),
+            Self::NonMonotoneEdge { run: [first, last], vertices, distance, .. } => format!(
+                "the polycube edge is folded here: its {vertices} vertices from {first} to {last} are out of order, by up \
+                 to {distance:.3}, beyond the tolerance"
+            ),
             Self::OffLevel { distance, .. } => {
                 format!("the vertex lies {distance:.3} off the plane of its chart, beyond the tolerance")
             }
@@ -217,7 +226,7 @@ impl Violation {
             Self::TooFewCorners { .. } => "relabel its boundary: a facet is at least a rectangle",
             Self::ChartWithHandle { .. } => "relabel the chart in several parts",
             Self::ZeroLengthEdge { .. } => "pull its ends apart, or merge the two charts at its end",
-            Self::NonMonotoneEdge { .. } => "straighten the border between the two charts",
+            Self::NonMonotoneEdge { .. } => "unfold the border between the two charts, or raise the level tolerance",
             Self::OffLevel { .. } => "flatten the facet, or raise the level tolerance",
             Self::SelfOverlap { .. } => "move the two parts apart",
             Self::InsideOut { .. } => "flip its faces",
