@@ -235,14 +235,34 @@ pub fn read_pair(py: Python<'_>, shape: PathBuf, polycube: PathBuf) -> PyResult<
     Ok((pair.1.into(), pair.0.into()))
 }
 
-/// Reads one label a line for each boundary face of `polycube`: (f,) int8.
+/// Reads the label of each boundary face of `polycube`, one a line of the file: (f,) int8.
+///
+/// Args:
+///     path: the file of labels.
+///     polycube: the mesh.
+///     source: the file that the mesh was read from. With it, labels may also be given one for each of its faces before
+///         polygons were cut into triangles, or for each face that it lists beside its cells. Four for each
+///         tetrahedron, for the faces opposite to its corners, are read without.
+///     order: which number stands for which direction, where not "+X-X+Y-Y+Z-Z"; as in "-X+X-Y+Y-Z+Z", or
+///         "1:+X-X+Y-Y+Z-Z" where numbers count from 1.
 ///
 /// Raises:
 ///     ParseError: a line is no number from -1 to 5; `elements` has the line.
 ///     Mismatch: there are not as many labels as faces.
+///     InvalidOption: `order` is none, or does not have a number of the file.
 #[pyfunction]
-pub fn read_labels<'py>(py: Python<'py>, path: PathBuf, polycube: &PyMesh) -> PyResult<Bound<'py, PyAny>> {
-    let read = || mesh::read_labels(&path, polycube.0.cells().boundary()?.len());
+#[pyo3(signature = (path, polycube, source=None, order=None))]
+pub fn read_labels<'py>(
+    py: Python<'py>,
+    path: PathBuf,
+    polycube: &PyMesh,
+    source: Option<PathBuf>,
+    order: Option<&str>,
+) -> PyResult<Bound<'py, PyAny>> {
+    let read = || {
+        let order = order.unwrap_or("+X-X+Y-Y+Z-Z").parse()?;
+        mesh::read_labels_of(&polycube.0, source.as_deref(), &path, Some(&order))
+    };
     let labels = py.detach(read).map_err(|e| errors::about(py, &e, None))?;
     Ok(numpy::PyArray1::from_vec(py, labels).into_any())
 }

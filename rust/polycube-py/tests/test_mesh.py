@@ -203,6 +203,10 @@ def test_labels_are_read(tmp_path, cube):
     path.write_text("5\n4\n")
     with pytest.raises(polycube.Mismatch):
         polycube.read_labels(path, cube)
+    path.write_text("6\n5\n4\n3\n2\n-1\n")
+    assert polycube.read_labels(path, cube, order="1:+X-X+Y-Y+Z-Z").tolist() == [5, 4, 3, 2, 1, -1]
+    with pytest.raises(polycube.InvalidOption):
+        polycube.read_labels(path, cube, order="+X-X")
     path.write_text("5\nseven\n")
     with pytest.raises(polycube.ParseError):
         polycube.read_labels(path, cube)

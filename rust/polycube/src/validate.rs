@@ -20,7 +20,7 @@ pub enum Subject {
 #[derive(Clone, Debug, PartialEq, serde::Serialize)]
 pub struct Finding {
     /// A short name of the rule broken, in `snake_case`: that of a [`Violation`], `flipped_face`, `mismatch`,
-    /// `bad_label`, `too_large`, `mirrored`, `not_finite` or `malformed`.
+    /// `bad_label`, `label_order`, `too_large`, `mirrored`, `not_finite` or `malformed`.
     pub rule: &'static str,
     /// Which mesh is concerned.
     pub mesh: Subject,

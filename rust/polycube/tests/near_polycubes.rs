@@ -287,7 +287,7 @@ fn an_edge_that_is_folded_is_named_with_its_run() {
 
 /// A cell of the surface that is turned over or without area.
 fn has_flat_face(mesh: &Mesh, labels: &[i8]) -> bool {
-    !polycube::measure::flipped(mesh, labels).unwrap().is_empty()
+    !polycube::measure::flipped(mesh, labels).expect("labels fit").is_empty()
 }
 
 /// Two neighbours on a straight edge change places, by as little as rounding and by as much as is tolerated.

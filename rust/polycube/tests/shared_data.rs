@@ -126,8 +126,8 @@ fn simplifying_again_changes_nothing() {
     }
 }
 
-/// The vertices moved within and off their facets by up to two percent of the size, labels as they were: corners, edges and
-/// facets are those of the model, and so are the counts as long as facets of one plane are known for such.
+/// The vertices moved within and off their facets by up to two percent of the size, labels as they were: corners, edges
+/// and facets are those of the model, and so are the counts as long as facets of one plane are known for such.
 #[test]
 fn models_with_noise_have_the_structure_of_the_models() {
     for (name, mesh) in models() {

@@ -69,9 +69,9 @@ fn check(args: &Args) -> Result<Vec<Finding>> {
             return Ok(vec![Finding::of(error, if shape { Subject::Shape } else { Subject::Polycube })?]);
         }
     };
-    let labels = match &args.mesh.labels.file {
-        Some(file) if mesh.cells().boundary().is_ok() => Some(read_labels(file, &args.mesh.polycube, &mesh)?),
-        _ => None,
+    let labels = match mesh.cells().boundary() {
+        Ok(_) => read_labels(&args.mesh.labels, &args.mesh.polycube, &mesh)?,
+        Err(_) => None,
     };
     let input = Input { polycube: &mesh, shape: shape.as_ref(), labels: labels.as_deref() };
     Ok(validate(&input, &args.mesh.tolerance.get())?)

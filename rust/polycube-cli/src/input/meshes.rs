@@ -1,6 +1,7 @@
 //! The meshes and labels that a subcommand works on.
 
 use crate::failure::{Failure, Result};
+use crate::options::polycube::LabelsArg;
 use polycube::make::{Made, MakeOptions, make};
 use polycube::mesh::{self, Mesh};
 use polycube::simplify::Input;
@@ -19,9 +20,10 @@ pub struct MeshFiles {
 
 impl MeshFiles {
     /// Reads the files.
-    pub fn read(polycube: &Path, shape: Option<&Path>, labels: Option<&Path>) -> Result<Self> {
+    pub fn read(polycube: &Path, shape: Option<&Path>, labels: &LabelsArg) -> Result<Self> {
         let (mesh, shape) = read_meshes(polycube, shape).map_err(Failure::in_reading)?;
-        let labels = labels.map(|file| read_labels(file, polycube, &mesh)).transpose()?;
+        mesh.cells().boundary().map_err(Failure::in_file(polycube))?;
+        let labels = read_labels(labels, polycube, &mesh)?;
         Ok(Self { polycube: mesh, shape, labels })
     }
 
@@ -46,10 +48,10 @@ pub fn read_meshes(polycube: &Path, shape: Option<&Path>) -> polycube::Result<(M
     }
 }
 
-/// Reads one label for each boundary face of `mesh`, which came from the file `of`.
-pub fn read_labels(file: &Path, of: &Path, mesh: &Mesh) -> Result<Vec<i8>> {
-    let faces = mesh.cells().boundary().map_err(Failure::in_file(of))?.len();
-    Ok(mesh::read_labels(file, faces)?)
+/// Reads one label for each boundary face of `mesh`, which came from the file `of`, if any are given.
+pub fn read_labels(labels: &LabelsArg, of: &Path, mesh: &Mesh) -> Result<Option<Vec<i8>>> {
+    let Some(file) = &labels.file else { return Ok(None) };
+    Ok(Some(mesh::read_labels_of(mesh, Some(of), file, labels.order.as_ref())?))
 }
 
 /// The text of a file that is no mesh but, say, a "list".

@@ -2,6 +2,7 @@
 
 use super::number::{degrees, fraction};
 use clap::{Args, ValueHint};
+use polycube::mesh::LabelOrder;
 use polycube::structure::Tolerance;
 use std::path::PathBuf;
 
@@ -24,9 +25,24 @@ pub struct PolycubeArgs {
 /// The labels of a polycube.
 #[derive(Args, Clone, Debug, Default)]
 pub struct LabelsArg {
-    /// Label file: one integer a line for each boundary face, 0 to 5 for +X -X +Y -Y +Z -Z, -1 for "by the normal"
+    /// Label file: one integer a line, 0 to 5 for +X -X +Y -Y +Z -Z, -1 for "by the normal"; one for each boundary
+    /// face (of a surface in the order of the file; of a volume cell by cell, in VTK's order of a cell's faces), for
+    /// each face of the file before polygons were cut, for each face that a file of a volume lists beside its cells, or
+    /// four for each tetrahedron, for the faces opposite to its corners
     #[arg(long = "labels", id = "labels", value_name = "FILE", value_hint = ValueHint::FilePath)]
     pub file: Option<PathBuf>,
+
+    /// Which number stands for which direction in the label file, where not +X-X+Y-Y+Z-Z; as in "-X+X-Y+Y-Z+Z", or
+    /// "1:+X-X+Y-Y+Z-Z" where numbers count from 1
+    #[arg(
+        long = "label-order", id = "label_order", value_name = "ORDER", requires = "labels", allow_hyphen_values = true,
+        value_parser = order
+    )]
+    pub order: Option<LabelOrder>,
+}
+
+fn order(text: &str) -> Result<LabelOrder, String> {
+    text.parse().map_err(|error: polycube::Error| error.to_string())
 }
 
 /// How far a mesh may be from a polycube.

@@ -12,8 +12,8 @@ mod stars;
 
 pub use checked::Mesh;
 pub use io::{
-    CellField, FieldValues, Format, Staged, parse_labels, read, read_bytes, read_labels, read_pair, write,
-    write_atomically, write_bytes, write_labels,
+    CellField, FieldValues, Format, LabelOrder, Staged, parse_labels, read, read_bytes, read_labels, read_labels_of,
+    read_pair, write, write_atomically, write_bytes, write_labels,
 };
 pub use simplices::{Face, Simplices};
 pub(crate) use stars::Stars;

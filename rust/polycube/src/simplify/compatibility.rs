@@ -2,8 +2,8 @@
 
 use super::Input;
 use crate::error::{Error, ErrorKind, Place};
-use crate::mesh::{Face, Mesh, Point};
-use crate::structure::{Polycube, area_vector};
+use crate::mesh::{Face, LabelOrder, Mesh, Point};
+use crate::structure::{Polycube, area_vector, convention};
 
 /// No coordinate may be larger: the sixth powers of lengths, which energies have, are still numbers.
 pub(super) const LARGEST_COORDINATE: f64 = 1e50;
@@ -55,11 +55,25 @@ fn check_labels(labels: &[i8], polycube: &Mesh) -> Checked {
         return Err(misfit("mismatch", error));
     }
     let bad = (0..).zip(labels).find(|(_, label)| !(-1..=5).contains(*label));
+    if let Some(order) = convention(polycube.points(), &faces, labels) {
+        return Err(misfit("label_order", in_other_order(&order)));
+    }
     let Some((face, label)) = bad else { return Ok(()) };
     let error = Error::new(ErrorKind::Option, format!("{label} is no label"))
         .at(Place::Face(face))
         .remedy("use 0 to 5 for +X -X +Y -Y +Z -Z, or -1 for \"by the normal\"");
     Err(misfit("bad_label", error))
+}
+
+/// The error of labels that count the directions in another order than ours.
+fn in_other_order(order: &LabelOrder) -> Error {
+    let (first, ours) = (if order.label(0).is_some() { 0 } else { 1 }, LabelOrder::default());
+    let message = format!(
+        "the labels look away from their faces: they count the directions from {first} on as {order}, not from 0 on as \
+         {ours}"
+    );
+    Error::new(ErrorKind::Option, message)
+        .remedy(format!("give them in our order, or say which they are in (command: --label-order={order})"))
 }
 
 fn check_size(points: &[Point], in_shape: bool) -> Checked {
@@ -140,6 +154,21 @@ mod tests {
 
     fn simplified(input: &Input) -> Simplified {
         simplify(input, &paper(), &Context::default()).unwrap()
+    }
+
+    #[test]
+    fn labels_in_another_order_are_told_with_it() {
+        let (polycube, _) = example(Example::SteppedL, 1, CellKind::Quads).unwrap();
+        let found = read_structure(&Input { polycube: &polycube, shape: None, labels: None }, &Tolerance::default());
+        for text in ["-X+X-Y+Y-Z+Z", "+Z-Z+X-X+Y-Y", "1:+X-X+Y-Y+Z-Z"] {
+            let order: LabelOrder = text.parse().unwrap();
+            let number = |label: i8| (0..=6).find(|&n| order.label(n) == Some(label)).unwrap();
+            let numbers: Vec<i8> = found.as_ref().unwrap().labels().map(|l| number(l.index() as i8)).collect();
+            let input = Input { polycube: &polycube, shape: None, labels: Some(&numbers) };
+            assert_eq!(refused(&input), (ErrorKind::Option, None, "label_order", Subject::Polycube));
+            let error = read_structure(&input, &Tolerance::default()).unwrap_err();
+            assert!(error.remedy.contains(&format!("--label-order={text})")), "{error}");
+        }
     }
 
     /// The kind of the error that everything gives, and the rule that a check names.

@@ -5,6 +5,7 @@
 
 mod arrangement;
 mod charts;
+mod convention;
 mod extract;
 mod label;
 mod order;
@@ -16,6 +17,7 @@ mod surface;
 mod violation;
 
 pub use arrangement::{Arrangement, Conflict};
+pub(crate) use convention::convention;
 pub use label::Label;
 pub(crate) use label::area_vector;
 pub(crate) use order::ascending;

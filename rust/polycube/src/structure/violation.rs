@@ -197,8 +197,8 @@ impl Violation {
             Self::ChartWithHandle { .. } => "this face's chart has a handle, so it cannot be flat".into(),
             Self::ZeroLengthEdge { .. } => "this polycube edge has no length".into(),
             Self::NonMonotoneEdge { run: [first, last], vertices, distance, .. } => format!(
-                "the polycube edge is folded here: its {vertices} vertices from {first} to {last} are out of order, by up \
-                 to {distance:.3}, beyond the tolerance"
+                "the polycube edge is folded here: its {vertices} vertices from {first} to {last} are out of order, by \
+                 up to {distance:.3}, beyond the tolerance"
             ),
             Self::OffLevel { distance, .. } => {
                 format!("the vertex lies {distance:.3} off the plane of its chart, beyond the tolerance")

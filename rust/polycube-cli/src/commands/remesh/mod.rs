@@ -161,7 +161,7 @@ pub fn run(args: &Args) -> Result<ExitCode> {
 /// Reads the polycube, or makes one.
 fn meshes(args: &Args, context: &Context) -> Result<MeshFiles> {
     match &args.polycube {
-        Some(polycube) => MeshFiles::read(polycube, Some(&args.shape), args.labels.file.as_deref()),
+        Some(polycube) => MeshFiles::read(polycube, Some(&args.shape), &args.labels),
         None => MeshFiles::make(&args.shape, &args.make.get(), context),
     }
 }

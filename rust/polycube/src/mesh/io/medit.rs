@@ -8,7 +8,7 @@ use crate::error::{Error, ErrorKind, Result};
 use crate::mesh::{Cells, Mesh};
 
 /// Reads a mesh.
-pub(super) fn read(bytes: &[u8]) -> Result<Mesh> {
+pub(super) fn read(bytes: &[u8]) -> Result<Soup> {
     let mut scanner = Scanner::with_comments(bytes);
     let word = scanner.expect("MeshVersionFormatted")?;
     if !word.eq_ignore_ascii_case(b"MeshVersionFormatted") {
@@ -24,7 +24,7 @@ pub(super) fn read(bytes: &[u8]) -> Result<Mesh> {
         }
         section(keyword, &mut scanner, &mut soup)?;
     }
-    soup.finish()
+    Ok(soup)
 }
 
 fn section(keyword: &[u8], scanner: &mut Scanner, soup: &mut Soup) -> Result<()> {

@@ -6,6 +6,7 @@
 mod field;
 mod file;
 mod format;
+mod label_order;
 mod labels;
 mod medit;
 mod obj;
@@ -13,6 +14,7 @@ mod off;
 mod pair;
 mod ply;
 mod ply_header;
+mod polygon;
 mod scalar;
 mod scan;
 mod sniff;
@@ -30,9 +32,11 @@ mod tests;
 pub use field::{CellField, FieldValues};
 pub use file::{Staged, write_atomically};
 pub use format::Format;
-pub use labels::{parse_labels, read_labels, write_labels};
+pub use label_order::LabelOrder;
+pub use labels::{parse_labels, read_labels, read_labels_of, write_labels};
 pub use pair::read_pair;
 
+use self::soup::Soup;
 use super::Mesh;
 use crate::error::{Error, ErrorKind, Result};
 use std::path::Path;
@@ -41,7 +45,8 @@ use std::path::Path;
 ///
 /// Vertices keep their order, used or not; coordinates keep the file's unit. Where a file holds volume
 /// and surface, the volume is taken. A surface of quadrilaterals stays one; any other is split into
-/// triangles, each face as a fan around its first corner. The corners of STL are welded where they coincide exactly.
+/// triangles, face by face: as a fan around the first corner where that goes, which for a concave face or one with
+/// straight corners it does not. The corners of STL are welded where they coincide exactly.
 ///
 /// ```
 /// use polycube::mesh::{self, CellKind, Cells};
@@ -97,6 +102,11 @@ fn about<'a>(format: Format, path: &'a Path, bytes: &'a [u8]) -> impl Fn(Error) 
 /// # Errors
 /// As [`read`], but never [`ErrorKind::Io`].
 pub fn read_bytes(format: Format, bytes: &[u8]) -> Result<Mesh> {
+    soup(format, bytes)?.finish()
+}
+
+/// What the bytes of a file hold.
+fn soup(format: Format, bytes: &[u8]) -> Result<Soup> {
     match format {
         Format::Obj => obj::read(bytes),
         Format::Off => off::read(bytes),

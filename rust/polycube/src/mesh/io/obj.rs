@@ -7,7 +7,7 @@ use crate::error::{Error, ErrorKind, Place, Result};
 use crate::mesh::{Mesh, Point};
 
 /// Reads a mesh; vertices are neither merged nor dropped.
-pub(super) fn read(bytes: &[u8]) -> Result<Mesh> {
+pub(super) fn read(bytes: &[u8]) -> Result<Soup> {
     let mut soup = Soup::default();
     let mut corners = Vec::new();
     let mut scanner = Scanner::new(without_mark(bytes));
@@ -26,7 +26,7 @@ pub(super) fn read(bytes: &[u8]) -> Result<Mesh> {
         let statement = Statement { rest, line, is_vertex };
         statement.read(&mut scanner, &mut soup, &mut corners)?;
     }
-    soup.finish()
+    Ok(soup)
 }
 
 struct Statement<'a> {

@@ -7,7 +7,7 @@ use crate::error::{Error, ErrorKind, Result};
 use crate::mesh::Mesh;
 
 /// Reads a mesh.
-pub(super) fn read(bytes: &[u8]) -> Result<Mesh> {
+pub(super) fn read(bytes: &[u8]) -> Result<Soup> {
     let mut scanner = Scanner::with_comments(bytes);
     let plain = header(&mut scanner)?;
     let vertices = scanner.count("the number of vertices")?;
@@ -34,7 +34,7 @@ pub(super) fn read(bytes: &[u8]) -> Result<Mesh> {
         // A colour may follow.
         scanner.rest_of_line();
     }
-    soup.finish()
+    Ok(soup)
 }
 
 /// Reads the keyword; true for the one that lets only positions follow.

@@ -1,6 +1,6 @@
 //! A polycube and the shape it was deformed from.
 
-use super::{Format, about, file, format_of, read_as, stl};
+use super::{Format, about, file, format_of, soup, stl};
 use crate::error::{Error, ErrorKind, Place, Result};
 use crate::mesh::Mesh;
 use std::path::Path;
@@ -23,8 +23,10 @@ pub fn read_pair(polycube: &Path, shape: &Path) -> Result<(Mesh, Mesh)> {
         let b = stl::corners(&b).map_err(about(Format::Stl, shape, &b))?;
         return stl::pair(&a, &b).map_err(in_both);
     }
-    let a = read_as(formats.0, polycube, &a)?;
-    let b = read_as(formats.1, shape, &b)?;
+    let (about_a, about_b) = (about(formats.0, polycube, &a), about(formats.1, shape, &b));
+    let [held, held_b] = [soup(formats.0, &a).map_err(&about_a)?, soup(formats.1, &b).map_err(&about_b)?];
+    let a = held.mesh().map_err(&about_a)?;
+    let b = held_b.finish_like(&held, &a).map_err(&about_b)?;
     compare(&a, &b).map_err(in_both)?;
     Ok((a, b))
 }

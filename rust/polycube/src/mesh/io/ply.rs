@@ -10,7 +10,7 @@ use crate::error::{Error, ErrorKind, Result};
 use crate::mesh::{Mesh, Point};
 
 /// Reads a mesh; all other elements and properties are ignored.
-pub(super) fn read(bytes: &[u8]) -> Result<Mesh> {
+pub(super) fn read(bytes: &[u8]) -> Result<Soup> {
     let mut scanner = Scanner::new(bytes);
     let (encoding, elements) = header(&mut scanner)?;
     let mut body = Body { scanner, encoding };
@@ -22,7 +22,7 @@ pub(super) fn read(bytes: &[u8]) -> Result<Mesh> {
             _ => body.skip(element)?,
         }
     }
-    soup.finish()
+    Ok(soup)
 }
 
 struct Body<'a> {

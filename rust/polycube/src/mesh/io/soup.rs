@@ -1,5 +1,6 @@
 //! What a file holds, before one kind of cell is chosen for the mesh.
 
+use super::polygon::triangles;
 use crate::error::{Error, ErrorKind, Place, Result};
 use crate::mesh::checked::check_points;
 use crate::mesh::{Cells, Mesh, Point};
@@ -56,7 +57,7 @@ impl Soup {
         self.add(Shape::Hexahedron, &corners, line);
     }
 
-    fn cells(&self) -> impl Iterator<Item = (&Entry, &[u32])> {
+    fn entries(&self) -> impl Iterator<Item = (&Entry, &[u32])> {
         let mut start = 0;
         self.entries.iter().map(move |entry| {
             let corners = &self.corners[start..entry.end];
@@ -65,8 +66,13 @@ impl Soup {
         })
     }
 
+    /// The corners of each face that the file lists, those beside a volume, too.
+    pub(super) fn polygons(&self) -> impl Iterator<Item = &[u32]> {
+        self.of(Shape::Polygon)
+    }
+
     fn of(&self, shape: Shape) -> impl Iterator<Item = &[u32]> {
-        self.cells().filter(move |(entry, _)| entry.shape == shape).map(|(_, corners)| corners)
+        self.entries().filter(move |(entry, _)| entry.shape == shape).map(|(_, corners)| corners)
     }
 
     fn check(&self) -> Result<()> {
@@ -76,7 +82,7 @@ impl Soup {
                 .remedy("export faces, tetrahedra or hexahedra along with the vertices"));
         }
         let count = self.points.len();
-        for (i, (entry, corners)) in self.cells().enumerate() {
+        for (i, (entry, corners)) in self.entries().enumerate() {
             if let Some(vertex) = corners.iter().find(|&&v| v as usize >= count) {
                 let message = format!("a cell names vertex {vertex} (counting from 0) of a mesh with {count} vertices");
                 return Err(Error::new(ErrorKind::Parse, message).at(place(entry.line, i)));
@@ -87,6 +93,31 @@ impl Soup {
 
     /// The mesh: volume before surface, all quadrilaterals or else triangles.
     pub(super) fn finish(self) -> Result<Mesh> {
+        let cells = self.cells()?;
+        Mesh::new(self.points, cells)
+    }
+
+    /// The mesh as [`finish`](Self::finish) makes it.
+    pub(super) fn mesh(&self) -> Result<Mesh> {
+        Mesh::new(self.points.clone(), self.cells()?)
+    }
+
+    /// The mesh of a shape, cut into triangles as `mesh` is, its polycube that holds `polycube`: where both have the
+    /// same faces, those of the polycube, which are flat, tell how they are cut.
+    pub(super) fn finish_like(self, polycube: &Self, mesh: &Mesh) -> Result<Mesh> {
+        let alike = |(a, b): (&Entry, &Entry)| a.shape == b.shape && a.end == b.end;
+        let counts = |soup: &Self| (soup.points.len(), soup.entries.len());
+        if counts(&self) != counts(polycube)
+            || self.corners != polycube.corners
+            || !self.entries.iter().zip(&polycube.entries).all(alike)
+        {
+            return self.finish();
+        }
+        Mesh::new(self.points, mesh.cells().clone())
+    }
+
+    /// The cells of the mesh that [`finish`](Self::finish) makes.
+    fn cells(&self) -> Result<Cells> {
         self.check()?;
         let tetrahedra = arrays(self.of(Shape::Tetrahedron));
         let hexahedra = arrays(self.of(Shape::Hexahedron));
@@ -96,15 +127,14 @@ impl Soup {
             (true, false) => Cells::Hexahedra(hexahedra),
             (true, true) => self.surface(),
         };
-        Mesh::new(self.points, cells)
+        Ok(cells)
     }
 
     fn surface(&self) -> Cells {
         if self.of(Shape::Polygon).all(|corners| corners.len() == 4) {
             return Cells::Quads(arrays(self.of(Shape::Polygon)));
         }
-        let fan = |c: &[u32]| -> Vec<_> { c[1..].windows(2).map(|w| [c[0], w[0], w[1]]).collect() };
-        Cells::Triangles(self.of(Shape::Polygon).flat_map(fan).collect())
+        Cells::Triangles(self.of(Shape::Polygon).flat_map(|corners| triangles(&self.points, corners)).collect())
     }
 }
 

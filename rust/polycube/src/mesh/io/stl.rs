@@ -2,6 +2,7 @@
 
 use super::scalar::{Endian, Scalar};
 use super::scan::Scanner;
+use super::soup::Soup;
 use crate::error::{Error, ErrorKind, Place, Result};
 use crate::mesh::checked::check_points;
 use crate::mesh::{Cells, Mesh, Point};
@@ -13,10 +14,13 @@ const HEADER: usize = 84;
 const FACET: usize = 50;
 
 /// Reads a mesh; vertices are numbered as they first appear.
-pub(super) fn read(bytes: &[u8]) -> Result<Mesh> {
+pub(super) fn read(bytes: &[u8]) -> Result<Soup> {
     let corners = corners(bytes)?;
     let (triangles, firsts) = weld(corners.len(), |i| key(&corners[i]))?;
-    select(&corners, &triangles, &firsts)
+    let mut soup = Soup::default();
+    soup.points = firsts.iter().map(|&i| corners[i]).collect();
+    triangles.iter().try_for_each(|t| soup.polygon(t, 0))?;
+    Ok(soup)
 }
 
 /// Joins the corners of two files with the same triangles; two corners are one vertex where both files

@@ -10,7 +10,7 @@ use crate::error::{Error, ErrorKind, Result};
 use crate::mesh::Mesh;
 
 /// Reads a mesh; the data on points and cells are ignored.
-pub(super) fn read(bytes: &[u8]) -> Result<Mesh> {
+pub(super) fn read(bytes: &[u8]) -> Result<Soup> {
     let mut reader = Reader::new(bytes)?;
     while let Some(keyword) = reader.scanner.word() {
         if matches!(keyword, b"CELL_DATA" | b"POINT_DATA") {
@@ -191,9 +191,9 @@ impl<'a> Reader<'a> {
         Ok(numbers)
     }
 
-    fn finish(mut self) -> Result<Mesh> {
+    fn finish(mut self) -> Result<Soup> {
         self.cells.add_to(&mut self.soup, 0)?;
-        self.soup.finish()
+        Ok(self.soup)
     }
 }
 

@@ -12,7 +12,7 @@ use base64::prelude::BASE64_STANDARD;
 use roxmltree::{Document, Node};
 
 /// Reads a mesh; the data on points and cells are ignored. Several pieces are put one after the other.
-pub(super) fn read(bytes: &[u8]) -> Result<Mesh> {
+pub(super) fn read(bytes: &[u8]) -> Result<Soup> {
     // Appended data may be raw bytes, which XML does not allow: only what comes before is XML.
     let head = find(bytes, b"<AppendedData").unwrap_or(bytes.len());
     let (head, appended) = bytes.split_at(head);
@@ -35,7 +35,7 @@ pub(super) fn read(bytes: &[u8]) -> Result<Mesh> {
     for piece in root.descendants().filter(|node| node.has_tag_name("Piece")) {
         add_piece(&piece, &mut arrays, &mut soup)?;
     }
-    soup.finish()
+    Ok(soup)
 }
 
 /// Refuses XML that no program writes for a mesh: attributes and namespaces by the thousand would take the

@@ -1,4 +1,5 @@
 mod data;
+mod labels;
 mod malformed;
 mod property;
 mod variants;
