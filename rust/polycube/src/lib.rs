@@ -42,6 +42,7 @@ mod optimise;
 pub mod parts;
 mod range;
 pub mod remesh;
+pub mod repair;
 mod rng;
 pub mod simplify;
 mod spatial;

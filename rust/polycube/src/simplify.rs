@@ -7,6 +7,7 @@ use crate::layout::{Objective, count};
 use crate::map::morph;
 use crate::mesh::{Mesh, Point};
 use crate::range::Range;
+use crate::repair::{Repaired, repair};
 use crate::structure::{Arrangement, Edge, Overlaps, Polycube, Tolerance, ascending, placement_of};
 use std::time::Instant;
 
@@ -45,8 +46,8 @@ pub struct Input<'a> {
 pub struct SimplifyOptions {
     /// How the levels find their places.
     pub strategy: Strategy,
-    /// Lattice steps per unit of the polycube. By default 1 if all levels are integers, else such that a lattice step
-    /// is the mean length of the polycube's mesh edges.
+    /// Lattice steps per unit of the polycube. By default such that a lattice step is the mean length of the polycube's
+    /// mesh edges; 1 if all levels are integers and the edges are not much longer than 1.
     pub scale: Option<f64>,
     /// Algorithm 1 stops before λ falls below this, from 0 for the coarsest result to 1 for one round.
     pub lambda_min: f64,
@@ -71,6 +72,8 @@ pub struct SimplifyOptions {
     pub keep_flipped: bool,
     /// How far the input may be from a polycube.
     pub tolerance: Tolerance,
+    /// Whether the input is taken as it is, without [repairs](crate::repair::repair).
+    pub no_repair: bool,
 }
 
 impl SimplifyOptions {
@@ -86,6 +89,11 @@ impl SimplifyOptions {
         given("max_displacement", Range::AtLeast(0.0), self.max_displacement)?;
         given("max_distortion", Range::AtLeast(1.0), self.max_distortion)?;
         self.tolerance.check()
+    }
+
+    /// The input after repairs, where there is something to repair and that is wanted.
+    pub(crate) fn repaired(&self, input: &Input) -> Option<Repaired> {
+        if self.no_repair { None } else { repair(input) }
     }
 
     /// The options of the alignment on a lattice with `scale` steps per unit.
@@ -157,6 +165,8 @@ fn read_in_steps(input: &Input, tolerance: &Tolerance, context: &Context) -> Res
 pub fn simplify(input: &Input, options: &SimplifyOptions, context: &Context) -> Result<Simplified> {
     let start = Instant::now();
     options.check()?;
+    let repaired = options.repaired(input);
+    let input = &repaired.as_ref().map_or(*input, Repaired::input);
     let polycube = read_in_steps(input, &options.tolerance, &context.stage("structure", 0.0, 0.1))?;
     let scale = options.scale.unwrap_or_else(|| default_scale(&polycube, input.polycube));
     let structured = start.elapsed().as_secs_f64();
@@ -167,6 +177,7 @@ pub fn simplify(input: &Input, options: &SimplifyOptions, context: &Context) -> 
     let alignment = align::align(&polycube.structure, &polycube.placement, &options.alignment(scale), &aligning)?;
     let aligned = start.elapsed().as_secs_f64();
     let mut report = SimplifyReport::new(&polycube, &alignment, options.strategy, scale);
+    report.note_repairs(repaired.as_ref());
     if options.strategy == Strategy::Best && alignment.bound.is_none() {
         report.notes.push(Note::Unsearched);
     }
@@ -202,6 +213,8 @@ impl Simplified {
     /// # Errors
     /// [`ErrorKind::Mismatch`] if `input` has other cells; those of `align::rescale`; [`ErrorKind::Cancelled`].
     pub fn rescaled(&self, input: &Input, scale: f64, context: &Context) -> Result<Self> {
+        let repaired = self.options.repaired(input);
+        let input = &repaired.as_ref().map_or(*input, Repaired::input);
         self.check_input(input)?;
         let start = Instant::now();
         let Self { input: polycube, report: old, .. } = self;
@@ -277,16 +290,20 @@ pub fn default_objective(mesh: &Mesh) -> Objective {
     if mesh.cells().is_volume() { Objective::BlocksPadded } else { Objective::SurfacePatches }
 }
 
-/// 1 for a polycube that lies on the lattice already, else one step per mean mesh edge.
+/// Mesh edges of this many units on the mean are too long to be steps of a lattice of units.
+const LONG: f64 = 8.0;
+/// The same of the shortest.
+const ALL_LONG: f64 = 2.0;
+
+/// One step per mean mesh edge; 1 for a polycube that lies on the lattice already, in a mesh about as fine.
 fn default_scale(polycube: &Polycube, mesh: &Mesh) -> f64 {
-    if polycube.placement.iter().all(|x| x.fract() == 0.0) {
-        return 1.0;
-    }
     let surface = &polycube.surface;
     let at = |v: u32| mesh.points()[v as usize];
     let lengths = surface.half_edges().map(|h| (at(surface.end(h)) - at(surface.start(h))).norm());
-    let (sum, count) = lengths.fold((0.0, 0.0), |(s, n), l| (s + l, n + 1.0));
-    count / sum
+    let (sum, count, shortest) =
+        lengths.fold((0.0, 0.0, f64::INFINITY), |(s, n, least), l| (s + l, n + 1.0, least.min(l)));
+    let on_lattice = polycube.placement.iter().all(|x| x.fract() == 0.0);
+    if on_lattice && sum < LONG * count && shortest < ALL_LONG { 1.0 } else { count / sum }
 }
 
 /// The mesh that `polycube` was read from, scaled by `scale` and morphed onto `placement`, which is in scaled units:

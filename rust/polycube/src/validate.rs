@@ -3,6 +3,7 @@
 use crate::error::{Error, ErrorKind, Place, Result};
 use crate::measure::flipped;
 use crate::mesh::{Face, Mesh, Point};
+use crate::repair::{Repair, Repaired, repair};
 use crate::simplify::{Input, Misfit, check_compatible, check_side, remedy};
 use crate::structure::{Polycube, Tolerance, Violation};
 
@@ -20,7 +21,8 @@ pub enum Subject {
 #[derive(Clone, Debug, PartialEq, serde::Serialize)]
 pub struct Finding {
     /// A short name of the rule broken, in `snake_case`: that of a [`Violation`], `flipped_face`, `mismatch`,
-    /// `bad_label`, `label_order`, `too_large`, `mirrored`, `not_finite` or `malformed`.
+    /// `bad_label`, `label_order`, `left_handed`, `not_welded`, `duplicate_cells`, `too_large`, `mirrored`,
+    /// `not_finite` or `malformed`.
     pub rule: &'static str,
     /// Which mesh is concerned.
     pub mesh: Subject,
@@ -83,6 +85,11 @@ impl Finding {
 /// [`ErrorKind::Option`] for a tolerance out of its range.
 pub fn validate(input: &Input, tolerance: &Tolerance) -> Result<Vec<Finding>> {
     tolerance.check()?;
+    let repaired = input.polycube.cells().is_volume().then(|| repair(input)).flatten();
+    let stored =
+        repaired.iter().flat_map(|r| &r.repairs).filter_map(|repair| stored_otherwise(*repair, input.polycube));
+    let stored: Vec<Finding> = stored.collect();
+    let input = &repaired.as_ref().map_or(*input, Repaired::input);
     let misfit = check_compatible(input).err();
     let of_polycube = misfit.as_ref().is_some_and(|m| !m.in_shape);
     let (mut findings, polycube) = if of_polycube { (Vec::new(), None) } else { polycube(input, tolerance) };
@@ -96,7 +103,32 @@ pub fn validate(input: &Input, tolerance: &Tolerance) -> Result<Vec<Finding>> {
         let cells = flipped(shape, &[]).map(|f| f.cells).unwrap_or_default();
         findings.extend(Middles::new(shape).findings(inverted(&cells), Subject::Shape));
     }
-    Ok(findings)
+    Ok([stored, findings].concat())
+}
+
+/// What is wrong with how the cells of a volume are stored, once for each cause.
+fn stored_otherwise(repair: Repair, mesh: &Mesh) -> Option<Finding> {
+    let cells = mesh.cells().len();
+    let (rule, message, remedy) = match repair {
+        Repair::Welded(n) => (
+            "not_welded",
+            format!("{n} vertices lie at the place of others, so that cells beside each other share no faces"),
+            "weld vertices at one place",
+        ),
+        Repair::Duplicates(n) => (
+            "duplicate_cells",
+            format!("{n} of {cells} cells are there twice"),
+            "remove the cells that are there twice",
+        ),
+        Repair::TurnedCells(n) => (
+            "left_handed",
+            format!("{n} of {cells} cells are numbered left-handed: their vertices go round the other way"),
+            "swap two vertices of each such tetrahedron, or the two rings of each such hexahedron",
+        ),
+        Repair::InnerFaces(_) | Repair::TurnedFaces(_) | Repair::TurnedLabels(_) => return None,
+    };
+    let remedy = format!("{remedy}, or leave it to `simplify` and `remesh`, which repair this");
+    Some(Finding { rule, mesh: Subject::Polycube, element: None, at: None, message, remedy })
 }
 
 /// What keeps the parts of `input` from going together.
@@ -113,19 +145,21 @@ fn misplaced(misfit: Misfit, input: &Input) -> Finding {
 fn polycube(input: &Input, tolerance: &Tolerance) -> (Vec<Finding>, Option<Polycube>) {
     let mesh = input.polycube;
     let mut better = None;
-    let (mut violations, polycube, labels) = match Polycube::new(mesh, input.labels, tolerance) {
+    let (mut violations, polycube, labels, ordered) = match Polycube::new(mesh, input.labels, tolerance) {
         Ok(polycube) => {
             let labels: Vec<i8> = polycube.labels().map(|l| l.index() as i8).collect();
             let overlaps = polycube.overlaps(mesh.points());
+            let ordered = polycube.in_order(mesh);
             let sound = overlaps.is_empty().then_some(polycube);
-            (overlaps, sound, labels)
+            (overlaps, sound, labels, ordered)
         }
         Err(violations) => {
             better = remedy(&violations, input, tolerance);
-            (violations, None, Vec::new())
+            (violations, None, Vec::new(), None)
         }
     };
-    let flipped = flipped(mesh, &labels).unwrap_or_default();
+    // What is only out of order along an edge is put in order before all else.
+    let flipped = flipped(ordered.as_ref().unwrap_or(mesh), &labels).unwrap_or_default();
     violations.extend(inverted(&flipped.cells));
     let middles = Middles::new(mesh);
     let mut findings = middles.findings(violations.into_iter(), Subject::Polycube);

@@ -309,6 +309,8 @@ fn neighbours_out_of_order_are_put_in_order() {
             assert!(result.report.deviation.distance >= back / 2.1);
             assert!(result.report.notes.contains(&polycube::simplify::Note::OutOfOrder(2)));
             let ordered = result.polycube.unwrap();
+            let found = polycube::validate::validate(&input, &Tolerance::default()).unwrap();
+            assert!(found.is_empty(), "{kind}, {back}: {found:?}");
             assert!(ordered.points()[one as usize].z < ordered.points()[two as usize].z, "{kind}, {back}");
             assert!(!has_flat_face(&ordered, &labels), "{kind}, {back}");
         }

@@ -6,8 +6,10 @@ use crate::options::polycube::PolycubeArgs;
 use crate::output::table::{self, short};
 use crate::output::terminal;
 use polycube::layout::{Counts, count};
+use polycube::measure::flipped;
 use polycube::mesh::Mesh;
-use polycube::simplify::read_structure;
+use polycube::repair::{Repair, Repaired, repair};
+use polycube::simplify::{Input, read_structure};
 use polycube::structure::{Arrangement, Deviation, Label, Polycube};
 use serde::Serialize;
 use std::collections::BTreeMap;
@@ -67,6 +69,8 @@ struct Found {
     /// How far the mesh is from an exact polycube.
     deviation: Deviation,
     counts: Counts,
+    /// What was repaired, and what else may not be as expected.
+    notes: Vec<String>,
     #[serde(skip_serializing_if = "Option::is_none")]
     facet_list: Option<Vec<FacetRow>>,
 }
@@ -75,8 +79,12 @@ struct Found {
 pub fn run(args: &Args) -> Result<ExitCode> {
     let file = &args.mesh.polycube;
     let meshes = MeshFiles::read(file, None, &args.mesh.labels)?;
-    let polycube = read_structure(&meshes.input(), &args.mesh.tolerance.get()).map_err(Failure::in_file(file))?;
-    let mut found = Found::new(file.display().to_string(), &meshes.polycube, &polycube);
+    let given = meshes.input();
+    let repaired = if args.mesh.tolerance.no_repair { None } else { repair(&given) };
+    let input = repaired.as_ref().map_or(given, Repaired::input);
+    let polycube = read_structure(&input, &args.mesh.tolerance.get()).map_err(Failure::in_file(file))?;
+    let mut found = Found::new(file.display().to_string(), input.polycube, &polycube);
+    found.notes = notes(&input, repaired.as_ref());
     found.facet_list = args.facets.then(|| facets(&polycube));
     if args.json {
         terminal::print_json(&found)?
@@ -107,6 +115,7 @@ impl Found {
             shortest_edge: structure.shortest_edge(&polycube.placement),
             deviation: polycube.deviation,
             counts: count(&Arrangement::new(structure, &polycube.placement)),
+            notes: Vec::new(),
             facet_list: None,
         }
     }
@@ -118,6 +127,10 @@ impl Found {
         }
         text += "\n";
         text += &table::table(["counts", ""], table::counts(&self.counts).map(|(n, x)| [n.into(), x.to_string()]));
+        self.notes.iter().for_each(|note| text += &format!("\nnote: {note}"));
+        if !self.notes.is_empty() {
+            text += "\n";
+        }
         if let Some(facets) = &self.facet_list {
             let row = |f: &FacetRow| {
                 [f.facet.to_string(), f.label.clone(), short(f.at), f.corners.to_string(), f.face.to_string()]
@@ -154,6 +167,16 @@ impl Found {
     fn valences(&self) -> String {
         list(self.corners_by_valence.iter().map(|(valence, n)| format!("{n} of valence {valence}")))
     }
+}
+
+/// What was repaired, and how many cells are inverted.
+fn notes(input: &Input, repaired: Option<&Repaired>) -> Vec<String> {
+    let mut notes: Vec<String> = repaired.iter().flat_map(|r| &r.repairs).map(Repair::to_string).collect();
+    let inverted = flipped(input.polycube, &[]).map_or(0, |f| f.cells.len());
+    if inverted > 0 {
+        notes.push(format!("{inverted} cells are inverted or flat: `simplify` and `remesh` untangle them"));
+    }
+    notes
 }
 
 /// The facets in the order of their numbers.

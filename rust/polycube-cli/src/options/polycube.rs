@@ -56,6 +56,11 @@ pub struct ToleranceArgs {
     /// to 1 [default: 0.05]
     #[arg(long, value_name = "F", value_parser = fraction)]
     pub level_tolerance: Option<f64>,
+
+    /// Take the input as it is. Else what has one right answer is repaired, and a note says so: cells numbered
+    /// left-handed, surfaces and labels that look inward, vertices at one place, faces that are double or inside
+    #[arg(long)]
+    pub no_repair: bool,
 }
 
 impl ToleranceArgs {

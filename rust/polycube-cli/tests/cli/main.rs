@@ -10,6 +10,7 @@ mod guides;
 mod inspect;
 mod interrupt;
 mod make;
+mod others;
 mod real;
 mod remesh;
 mod simplify;

@@ -10,6 +10,7 @@ mod effort;
 mod guides;
 mod judge;
 pub(crate) mod options;
+mod origin;
 mod paper;
 mod place;
 mod potential;
@@ -38,8 +39,8 @@ use crate::range::Range;
 use crate::structure::{Arrangement, Conflict, Placement, Structure, placement_of};
 use guides::Guided;
 use judge::{Judge, is_valid};
+use origin::{BOUND, Origin};
 use place::place_in_order;
-use problem::Problem;
 use ranks::Ranks;
 use start::guided_start;
 use std::time::Instant;
@@ -104,13 +105,18 @@ pub struct TradeOff {
 #[doc(hidden)]
 pub fn align(structure: &Structure, input: &[f64], options: &AlignOptions, context: &Context) -> Result<Alignment> {
     let before = counts_before(structure, input)?;
-    let task = Task::new(structure, input, before, options, context)?;
-    let found = match options.strategy {
-        Strategy::Naive => return naive(&task),
+    let origin = Origin::of(structure, input, options.scale);
+    let input = origin.leave(structure, input);
+    let task = Task::new(structure, &input, before, options, context)?;
+    let mut found = match options.strategy {
+        Strategy::Naive => naive(&task)?,
         Strategy::Paper => paper::simplify(&task, context)?,
         Strategy::Best => search::coarsest(&task, context)?,
     };
-    check(structure, &found.levels)?;
+    if options.strategy != Strategy::Naive {
+        check(structure, &found.levels)?;
+    }
+    found.levels = origin.put_back(structure, found.levels);
     Ok(found)
 }
 
@@ -150,10 +156,12 @@ pub(crate) fn place(
     options: &AlignOptions,
     context: &Context,
 ) -> Result<Vec<i64>> {
-    let task = Task::new(structure, input, before, options, context)?;
+    let origin = Origin::of(structure, input, options.scale);
+    let input = origin.leave(structure, input);
+    let task = Task::new(structure, &input, before, options, context)?;
     let levels = search::place_trade_off(&task, point, context)?;
     check(structure, &levels)?;
-    Ok(levels)
+    Ok(origin.put_back(structure, levels))
 }
 
 /// What every strategy is given.
@@ -232,11 +240,14 @@ pub(crate) fn rescale(
     guides: &Guides,
     context: &Context,
 ) -> Result<Vec<i64>> {
+    let origin = Origin::of(structure, input, scale);
+    let input = &origin.leave(structure, input);
     let targets = scaled(input, scale)?;
     context.tick(0.0)?;
     let guided = Guided::new(structure, input, guides, scale)?;
     let order = placement_of(levels);
-    place_in_order(structure, &Ranks::new(structure, &order), &targets, &guided)
+    let levels = place_in_order(structure, &Ranks::new(structure, &order), &targets, &guided)?;
+    Ok(origin.put_back(structure, levels))
 }
 
 /// The levels rounded to a lattice with `scale` steps per unit, as [`Strategy::Naive`] does: their order may change.
@@ -245,18 +256,24 @@ pub(crate) fn rescale(
 /// [`ErrorKind::Option`] for a scale that is not positive or too large for the lattice, [`ErrorKind::Infeasible`] if
 /// rounding brings together what the guides keep apart.
 pub(crate) fn round(structure: &Structure, input: &[f64], scale: f64, guides: &Guides) -> Result<Vec<i64>> {
+    let origin = Origin::of(structure, input, scale);
+    let input = &origin.leave(structure, input);
     let targets = scaled(input, scale)?;
-    Guided::new(structure, input, guides, scale)?.rounded(structure, &targets)
+    let levels = Guided::new(structure, input, guides, scale)?.rounded(structure, &targets)?;
+    Ok(origin.put_back(structure, levels))
 }
 
 fn scaled(input: &[f64], scale: f64) -> Result<Placement> {
     Range::Positive.check("scale", scale)?;
     let targets: Placement = input.iter().map(|x| x * scale).collect();
-    let bound = Problem::MAX_LEVEL as f64 / 2.0;
-    if targets.iter().any(|x| x.abs() > bound) {
-        return Err(Error::new(ErrorKind::Option, format!("with scale {scale} the lattice exceeds ±{bound} steps"))
-            .in_option("scale")
-            .remedy("use a smaller scale or a longer edge length, or move the polycube to the origin"));
+    if targets.iter().any(|x| x.abs() > BOUND) {
+        let most = 2.0 * BOUND;
+        return Err(Error::new(
+            ErrorKind::Option,
+            format!("with scale {scale} the lattice has more than {most} steps"),
+        )
+        .in_option("scale")
+        .remedy("use a smaller scale or a longer edge length"));
     }
     Ok(targets)
 }

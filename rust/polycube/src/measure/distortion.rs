@@ -32,9 +32,9 @@ pub struct Distortion {
     pub worst_cell: u32,
     /// Number of simplices, those left out included.
     pub simplices: usize,
-    /// Simplices flat in one of the meshes, left out.
+    /// Simplices flat in one of the meshes, or inverted in the first alone, left out.
     pub degenerate: usize,
-    /// Tetrahedra whose orientation the map reverses, left out. Always 0 for surfaces, where no
+    /// Tetrahedra inverted in the second mesh, left out. Always 0 for surfaces, where no
     /// side is known: see [`flipped`](super::flipped()).
     pub inverted: usize,
 }
@@ -152,8 +152,11 @@ fn tetrahedron(from: [Point; 4], to: [Point; 4]) -> Image {
         return Image::Degenerate;
     };
     let (volume, determinant) = (before.determinant(), after.determinant() / before.determinant());
-    if determinant < 0.0 {
+    if after.determinant() < 0.0 {
         return Image::Inverted;
+    }
+    if determinant < 0.0 {
+        return Image::Degenerate;
     }
     // libm's, because the platform's own differ in the last bit from one system to the next.
     let root = libm::cbrt(determinant);

@@ -10,6 +10,7 @@ use crate::remesh::options::RemeshOptions;
 use crate::remesh::report::{RemeshReport, measure};
 use crate::remesh::select::{Candidate, Candidates, Verdict, WORTH, Wrong};
 use crate::remesh::stages::Stages;
+use crate::repair::Repaired;
 use crate::simplify::{self, Input, Simplified, simplify, untangle_morphed};
 use std::time::Instant;
 
@@ -64,6 +65,8 @@ pub fn remesh(input: &Input, options: &RemeshOptions, context: &Context) -> Resu
     options.check()?;
     let start = Instant::now();
     let seconds = || start.elapsed().as_secs_f64();
+    let repaired = options.simplify.repaired(input);
+    let input = &repaired.as_ref().map_or(*input, Repaired::input);
     let found = simplify(input, &simplifying(options), &context.stage("simplify", 0.0, 0.2))?;
     let mut stages = Stages { simplify: seconds(), ..Stages::default() };
     let spent = found.report.seconds;
@@ -74,6 +77,7 @@ pub fn remesh(input: &Input, options: &RemeshOptions, context: &Context) -> Resu
     simplified.report.seconds = spent;
     let shape = input.shape.unwrap_or(input.polycube);
     untangle_volume(&mut simplified, input, &context.stage("map", 0.9, 0.95))?;
+    simplified.report.note_repairs(repaired.as_ref());
     let report = measure(&simplified, &meshed, shape, options, stages, &context.stage("measure", 0.95, 1.0))?;
     let Meshed { layout, quads, hexes, .. } = meshed;
     let mut result = Remeshed { simplified, layout, quads, hexes, report };

@@ -7,6 +7,7 @@ use crate::context::Context;
 use crate::error::{Error, ErrorKind, Result};
 use crate::layout::{Counts, count};
 use crate::range::Range;
+use crate::repair::Repaired;
 use crate::structure::{Arrangement, placement_of};
 use std::time::Instant;
 
@@ -52,6 +53,8 @@ impl Simplified {
     pub fn at(&self, input: &Input, simplicity: f64, context: &Context) -> Result<Self> {
         let start = Instant::now();
         let located = self.locate(simplicity, context)?;
+        let repaired = self.options.repaired(input);
+        let input = &repaired.as_ref().map_or(*input, Repaired::input);
         self.check_input(input)?;
         let mut moved = self.chosen(input, located, context)?;
         let total = start.elapsed().as_secs_f64();
@@ -79,6 +82,8 @@ impl Simplified {
     /// Those of [`at`](Self::at), except that an empty front gives no points.
     pub fn pareto(&self, input: &Input, context: &Context) -> Result<Vec<Self>> {
         let count = self.report.front.len();
+        let repaired = self.options.repaired(input);
+        let input = &repaired.as_ref().map_or(*input, Repaired::input);
         if count > 0 {
             self.check_input(input)?;
         }
@@ -145,6 +150,7 @@ impl Simplified {
             bound: old.bound,
         };
         let mut report = SimplifyReport::new(polycube, &alignment, Strategy::Best, old.scale);
+        report.notes.splice(0..0, old.notes.iter().filter(|n| n.is_of_input()).cloned());
         report.note_displacement(options, old.cause_of_displacement().unwrap_or(Cause::Choice));
         finish(input, polycube.clone(), alignment.levels, report, options, context)
     }

@@ -1,6 +1,7 @@
 //! What is said of a result that is not as asked, or not as might be expected.
 
 use crate::mesh::CellKind;
+use crate::repair::Repair;
 use std::fmt;
 
 /// What was not possible or not as asked. Written, for people and in reports, as a sentence.
@@ -8,8 +9,17 @@ use std::fmt;
 pub enum Note {
     /// Rounding to the lattice made the surface touch or cross itself in so many places.
     Broken(usize),
+    /// Something was repaired before all else.
+    Repaired(Repair),
     /// So many vertices along polycube edges of the input were out of order.
     OutOfOrder(usize),
+    /// Cells of the polycube came inverted or flat.
+    Tangled {
+        /// How many.
+        came: usize,
+        /// How many cells are so in the result.
+        left: usize,
+    },
     /// The strategy `best` could not search: the result is that of Algorithm 1.
     Unsearched,
     /// Corners move farther than they may.
@@ -79,7 +89,12 @@ pub enum Cause {
 impl Note {
     /// Whether it is about the order of the levels, and so holds at every scale.
     pub(super) fn is_of_order(&self) -> bool {
-        matches!(self, Self::Unsearched | Self::MoreBlocks { .. })
+        self.is_of_input() || matches!(self, Self::Unsearched | Self::MoreBlocks { .. })
+    }
+
+    /// Whether it is about the input, and so holds for every result.
+    pub(super) fn is_of_input(&self) -> bool {
+        matches!(self, Self::Repaired(_))
     }
 }
 
@@ -89,8 +104,13 @@ impl fmt::Display for Note {
             Self::Broken(n) => {
                 write!(f, "rounding to the lattice made the surface touch or cross itself in {n} places")
             }
+            Self::Repaired(repair) => write!(f, "{repair}"),
             Self::OutOfOrder(n) => {
                 write!(f, "{n} vertices along polycube edges were out of order and were put in order")
+            }
+            Self::Tangled { came, left: 0 } => write!(f, "{came} inverted cells of the input were untangled"),
+            Self::Tangled { came, left } => {
+                write!(f, "{came} cells of the input are inverted or flat; {left} are so in the result")
             }
             Self::Unsearched => f.write_str(
                 "the result is that of Algorithm 1: there are more than 1022 levels on every axis, too many to search, \

@@ -7,6 +7,7 @@ use crate::error::Result;
 use crate::layout::Counts;
 use crate::measure::{Distortion, Flipped, distortion, flipped};
 use crate::mesh::Mesh;
+use crate::repair::Repaired;
 use crate::structure::{Deviation, Polycube};
 
 /// What was done, for people and programs.
@@ -73,6 +74,12 @@ impl SimplifyReport {
         }
     }
 
+    /// Says what was repaired before all else.
+    pub(crate) fn note_repairs(&mut self, repaired: Option<&Repaired>) {
+        let repairs = repaired.iter().flat_map(|r| &r.repairs);
+        self.notes.splice(0..0, repairs.map(|repair| Note::Repaired(*repair)));
+    }
+
     /// Says so if corners move farther than the options allow, because of `cause`.
     pub(super) fn note_displacement(&mut self, options: &SimplifyOptions, cause: Cause) {
         let moved = self.max_displacement;
@@ -106,18 +113,18 @@ impl SimplifyReport {
         context.tick(0.3)?;
         self.measured(before.and_then(|before| Ok([before, distortion(from, mesh)?])));
         context.tick(0.6)?;
-        self.list_flipped(polycube, mesh)?;
+        self.list_flipped(input, polycube, mesh)?;
         context.tick(1.0)
     }
 
     /// Lists the flipped elements and measures the distortion anew, after `mesh` was changed.
     pub(crate) fn rejudge(&mut self, input: &Input, polycube: &Polycube, mesh: &Mesh) -> Result<()> {
-        self.notes.retain(|note| !matches!(note, Note::Flipped { .. }));
+        self.notes.retain(|note| !matches!(note, Note::Flipped { .. } | Note::Tangled { .. }));
         if let Some([before, _]) = self.distortion {
             let after = distortion(input.shape.unwrap_or(input.polycube), mesh);
             self.measured(after.map(|after| [before, after]));
         }
-        self.list_flipped(polycube, mesh)
+        self.list_flipped(input, polycube, mesh)
     }
 
     /// Takes the distortion in. A result is worth having without it.
@@ -131,10 +138,14 @@ impl SimplifyReport {
         }
     }
 
-    fn list_flipped(&mut self, polycube: &Polycube, mesh: &Mesh) -> Result<()> {
+    fn list_flipped(&mut self, input: &Input, polycube: &Polycube, mesh: &Mesh) -> Result<()> {
         let labels: Vec<i8> = polycube.labels().map(|l| l.index() as i8).collect();
         self.flipped = flipped(mesh, &labels)?;
         self.flipped_elements = self.flipped.cells.len() + self.flipped.faces.len();
+        let came = flipped(input.polycube, &[])?.cells.len();
+        if came > 0 {
+            self.notes.push(Note::Tangled { came, left: self.flipped.cells.len() });
+        }
         if self.flipped_elements > 0 {
             let has_front = self.strategy == Strategy::Best;
             self.notes.push(Note::Flipped { count: self.flipped_elements, has_front });

@@ -117,7 +117,7 @@ impl Skeleton {
         degrees: f64,
         tolerance: &Tolerance,
     ) -> Result<Polycube, Vec<Violation>> {
-        let diagonal = diagonal(points);
+        let diagonal = diagonal(points, &surface);
         let (level_of, levels) = self.levels(&surface, &charts);
         let placement = place(points, &surface, &charts, &level_of, &levels, tolerance.merge * diagonal);
         let vertex_levels = vertex_levels(&surface, &charts, &level_of, points.len());
@@ -235,9 +235,11 @@ impl Structure {
     }
 }
 
-fn diagonal(points: &[Point]) -> f64 {
-    let low = points.iter().fold(Point::from([f64::INFINITY; 3]), |m, p| m.inf(p));
-    let high = points.iter().fold(Point::from([f64::NEG_INFINITY; 3]), |m, p| m.sup(p));
+/// The diagonal of the bounding box of the surface; vertices that no face uses do not count.
+fn diagonal(points: &[Point], surface: &Surface) -> f64 {
+    let used = || surface.faces().iter().flat_map(|f| f.vertices()).map(|&v| points[v as usize]);
+    let low = used().fold(Point::from([f64::INFINITY; 3]), |m, p| m.inf(&p));
+    let high = used().fold(Point::from([f64::NEG_INFINITY; 3]), |m, p| m.sup(&p));
     (high - low).norm()
 }
 

@@ -1,11 +1,11 @@
 //! The order of the vertices along a polycube edge, kept where noise has mixed it up.
 
-use super::{Structure, Violation};
-use crate::mesh::Point;
+use super::{Polycube, Structure, Violation};
+use crate::mesh::{Mesh, Point};
 use std::ops::Range;
 
 /// Vertices of an edge that are out of order by less than this part of its length are so by rounding.
-const ROUNDING: f64 = 1e-9;
+const ROUNDING: f64 = 1e-12;
 
 /// How far the vertices along edges are out of order.
 #[derive(Default)]
@@ -84,6 +84,25 @@ pub(super) fn disorder(
         }
     }
     if violations.is_empty() { Ok(found) } else { Err(violations) }
+}
+
+impl Polycube {
+    /// The mesh with the vertices along edges in order; nothing where they are.
+    pub(crate) fn in_order(&self, mesh: &Mesh) -> Option<Mesh> {
+        if self.deviation.out_of_order == 0 {
+            return None;
+        }
+        let mut points = mesh.points().to_vec();
+        for (edge, chain) in self.structure.edges.iter().zip(&self.chains) {
+            let at: Vec<f64> = chain.iter().map(|&v| points[v as usize][edge.axis]).collect();
+            if !at.is_sorted_by(|a, b| a < b) {
+                let ends = self.structure.ends(edge).map(|l| self.placement[l as usize]);
+                let inner = chain.iter().skip(1).zip(ascending(&at[1..at.len() - 1], ends));
+                inner.for_each(|(&v, x)| points[v as usize][edge.axis] = x);
+            }
+        }
+        mesh.clone().with_points(points).ok()
+    }
 }
 
 /// The run of `inner` vertices of a chain that lie `at` places out of order, by up to `distance`.

@@ -117,6 +117,7 @@ impl Args {
         let simplify = SimplifyOptions {
             strategy: self.strategy.0,
             tolerance: self.tolerance.get(),
+            no_repair: self.tolerance.no_repair,
             ..SimplifyOptions::default()
         };
         self.mesh.set(RemeshOptions {

@@ -41,6 +41,7 @@ fn section(keyword: &[u8], scanner: &mut Scanner, soup: &mut Soup) -> Result<()>
             soup.hexahedron(*c, line);
             Ok(())
         }),
+        name if [&b"p2"[..], b"p3", b"q2", b"q3"].iter().any(|end| name.ends_with(end)) => none_of(keyword, scanner),
         b"prisms" | b"pyramids" | b"pentahedra" | b"pentaedra" => none_of(keyword, scanner),
         _ => skip(keyword, scanner),
     }
@@ -84,8 +85,13 @@ fn none_of(keyword: &[u8], scanner: &mut Scanner) -> Result<()> {
     if scanner.count("the number of cells")? == 0 {
         return Ok(());
     }
-    let message = format!("the file holds {}", String::from_utf8_lossy(keyword));
-    Err(Error::new(ErrorKind::Unsupported, message).remedy("export tetrahedra only or hexahedra only"))
+    let name = String::from_utf8_lossy(keyword);
+    if name.ends_with(char::is_numeric) {
+        let message = format!("the file holds quadratic or higher cells: {name}");
+        return Err(Error::new(ErrorKind::Unsupported, message).remedy("export linear cells, without nodes on edges"));
+    }
+    Err(Error::new(ErrorKind::Unsupported, format!("the file holds {name}"))
+        .remedy("export tetrahedra only or hexahedra only"))
 }
 
 /// Skips the numbers of a section that is of no use here.

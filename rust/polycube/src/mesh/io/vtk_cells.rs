@@ -85,6 +85,10 @@ fn add(soup: &mut Soup, kind: f64, corners: &mut [u32]) -> Result<()> {
             let message = format!("a cell of VTK's type {kind} with {} corners", corners.len());
             Err(Error::new(ErrorKind::Parse, message))
         }
+        (21..=37 | 60..=81, _) => {
+            let message = format!("a quadratic or higher cell, VTK's type {kind}");
+            Err(Error::new(ErrorKind::Unsupported, message).remedy("export linear cells, without nodes on edges"))
+        }
         _ => {
             let message = format!("a cell of VTK's type {kind}");
             Err(Error::new(ErrorKind::Unsupported, message)

@@ -253,3 +253,21 @@ fn base64_that_is_malformed_is_refused() {
         assert_eq!(error.kind, ErrorKind::Parse, "{wrong}");
     }
 }
+
+#[test]
+fn quadratic_cells_are_named_as_such() {
+    let points = "0 0 0\n".repeat(10);
+    let grid = "DATASET UNSTRUCTURED_GRID\nPOINTS 10 double\n";
+    let vtk = format!(
+        "# vtk DataFile Version 3.0\nx\nASCII\n{grid}{points}CELLS 1 11\n10 0 1 2 3 4 5 6 7 8 9\nCELL_TYPES 1\n24\n"
+    );
+    let vertices = "0 0 0 0\n".repeat(10);
+    let medit = format!(
+        "MeshVersionFormatted 2\nDimension 3\nVertices\n10\n{vertices}TetrahedraP2\n1\n1 2 3 4 5 6 7 8 9 10 0\nEnd\n"
+    );
+    for (format, text) in [(Format::Vtk, vtk), (Format::Medit, medit)] {
+        let error = read_bytes(format, text.as_bytes()).unwrap_err();
+        assert_eq!(error.kind, ErrorKind::Unsupported);
+        assert!(error.message.contains("quadratic") && error.remedy.contains("linear"), "{error}");
+    }
+}
