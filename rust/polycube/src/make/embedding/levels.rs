@@ -1,5 +1,6 @@
 //! Where the facets of a polycube lie: near to where their charts are, in the order that the loops give.
 
+use super::spans::Span;
 use crate::align::problem::{Difference, Problem, ShapeTerm};
 use crate::align::solve::{ExactSolver, Solver};
 use crate::context::Context;
@@ -12,27 +13,38 @@ use std::collections::BTreeMap;
 const STEPS: f64 = 512.0;
 /// The least distance of two levels that a loop separates, in lattice steps.
 const GAP: i64 = 8;
-/// Sweeps over the edges; they settle within some hundred.
-const SWEEPS: usize = 2000;
-/// How strongly levels are pulled to where their charts are, against lengths of edges.
-const PULL: f64 = 0.1;
+/// Sweeps over the levels; they settle within some hundred.
+const SWEEPS: usize = 1000;
+/// Lattice steps that matter no more.
+const SETTLED: f64 = 0.01;
+/// How strongly a level is pulled to where it was, for each squared lattice step, as a share of the whole surface.
+const PULL: f64 = 1e-9;
+/// How strongly the order of two levels without an edge between them pushes, as a share of the whole surface.
+const ORDER: f64 = 1e-5;
 /// The total weight of all levels.
 const WEIGHT: f64 = 10_000.0;
 
-/// An edge of the polycube: the levels at its ends and its length on the shape.
-pub(super) struct Span {
-    pub(super) low: u32,
-    pub(super) high: u32,
-    pub(super) length: f64,
+/// What holds a level apart from another one, and near to it.
+#[derive(Clone, Copy)]
+struct Spring {
+    to: u32,
+    /// Whether the other level lies above.
+    up: bool,
+    length: f64,
+    pull: f64,
+    push: f64,
 }
 
 /// The levels of a polycube, one for each zone of the loops, and how they must lie.
+#[derive(Clone)]
 pub(super) struct Levels {
     /// The level of each chart.
     pub(super) of_chart: Vec<u32>,
     /// Where each level lies on the shape, and the area that lies there.
     places: Vec<(f64, f64)>,
     differences: Vec<Difference>,
+    /// The levels that must lie above each.
+    above: Vec<Vec<u32>>,
     /// Lattice steps a unit of the shape.
     pub(super) scale: f64,
 }
@@ -56,7 +68,9 @@ impl Levels {
         }
         differences.sort_by_key(|d| (d.low, d.high));
         differences.dedup();
-        let mut levels = Self { of_chart, places: vec![(0.0, 0.0); numbers.len()], differences, scale: 1.0 };
+        let mut above = vec![Vec::new(); numbers.len()];
+        differences.iter().for_each(|d| above[d.low as usize].push(d.high));
+        let mut levels = Self { of_chart, places: vec![(0.0, 0.0); numbers.len()], differences, above, scale: 1.0 };
         levels.measure(charts, &beside);
         levels
     }
@@ -88,27 +102,42 @@ impl Levels {
         self.places.iter().map(|p| self.scale * p.0).collect()
     }
 
-    /// Where levels lie so that edges of the polycube are about as long as on the shape: least squares of relative
-    /// lengths, by Jacobi's iteration with damping.
-    pub(super) fn as_long_as(&self, spans: &[Span]) -> Vec<f64> {
-        let mean = spans.iter().map(|s| s.length).sum::<f64>() / spans.len().max(1) as f64;
-        let total: f64 = self.places.iter().map(|p| p.1).sum();
-        let start = self.as_on_the_shape();
-        let mut at = start.clone();
+    /// Where levels lie so that edges of the polycube are about as long as on the shape, from `start`, which keeps the
+    /// order: the least Σ area · (r + 1/r) for the ratio r of the two lengths, so that nothing is squashed, by Newton's
+    /// method for one level after the other.
+    pub(super) fn as_long_as(&self, spans: &[Span], start: &[f64]) -> Vec<f64> {
+        let beside = self.springs(spans, start.len());
+        let total: f64 = spans.iter().map(|s| s.area).sum();
+        let mut at = start.to_vec();
         for _ in 0..SWEEPS {
-            let pulls = self.places.iter().map(|p| PULL * p.1 / total + 1e-9);
-            let mut sums: Vec<(f64, f64)> = pulls.zip(&start).map(|(w, x)| (w * x, w)).collect();
-            for Span { low, high, length } in spans {
-                let weight = mean / (spans.len() as f64 * length.max(1e-3 * mean));
-                let [x, y] = [low, high].map(|&l| at[l as usize]);
-                for (l, goal) in [(low, y - length * self.scale), (high, x + length * self.scale)] {
-                    let sum = &mut sums[*l as usize];
-                    *sum = (sum.0 + weight * goal, sum.1 + weight);
-                }
+            let mut moved = 0.0_f64;
+            for (level, springs) in beside.iter().enumerate() {
+                let step = step(springs, &at, level, (PULL * total, start[level]));
+                at[level] += step;
+                moved = moved.max(step.abs());
             }
-            at.iter_mut().zip(sums).for_each(|(x, (sum, weight))| *x += 0.5 * (sum / weight - *x));
+            if moved < SETTLED {
+                break;
+            }
         }
         at
+    }
+
+    /// What holds each level: edges, and more weakly the loops that keep two levels in order.
+    fn springs(&self, spans: &[Span], levels: usize) -> Vec<Vec<Spring>> {
+        let mut beside: Vec<Vec<Spring>> = vec![Vec::new(); levels];
+        let mut tie = |[low, high]: [u32; 2], length: f64, pull: f64, push: f64| {
+            beside[low as usize].push(Spring { to: high, up: true, length, pull, push });
+            beside[high as usize].push(Spring { to: low, up: false, length, pull, push });
+        };
+        for s in spans {
+            tie([s.low, s.high], s.length.max(f64::MIN_POSITIVE) * self.scale, s.area, s.area);
+        }
+        let total: f64 = spans.iter().map(|s| s.area).sum();
+        for d in &self.differences {
+            tie([d.low, d.high], d.gap as f64, 0.0, ORDER * total);
+        }
+        beside
     }
 
     /// The nearest levels to `targets` that keep the order, in lattice steps.
@@ -124,8 +153,42 @@ impl Levels {
         Ok(ExactSolver.solve(&problem, None, context)?.levels)
     }
 
+    /// Whether the order says that one level lies below another.
+    pub(super) fn is_below(&self, low: u32, high: u32) -> bool {
+        let mut seen = vec![false; self.places.len()];
+        let mut waiting = vec![low];
+        while let Some(at) = waiting.pop() {
+            for &next in &self.above[at as usize] {
+                if next == high {
+                    return true;
+                }
+                if !std::mem::replace(&mut seen[next as usize], true) {
+                    waiting.push(next);
+                }
+            }
+        }
+        false
+    }
+
     /// Keeps one level below another from now on.
     pub(super) fn separate(&mut self, low: u32, high: u32) {
         self.differences.push(Difference { low, high, gap: GAP });
+        self.above[low as usize].push(high);
     }
+}
+
+/// Newton's step of one level, no farther than half way to the next.
+fn step(springs: &[Spring], at: &[f64], level: usize, (pull, home): (f64, f64)) -> f64 {
+    let (mut slope, mut bend) = (2.0 * pull * (at[level] - home), 2.0 * pull);
+    let mut room = [f64::INFINITY; 2];
+    for s in springs {
+        let sign = if s.up { -1.0 } else { 1.0 };
+        let gap = sign * (at[level] - at[s.to as usize]);
+        let r = gap / s.length;
+        slope += sign * (s.pull - s.push / (r * r)) / s.length;
+        bend += 2.0 * s.push / (r * r * r * s.length * s.length);
+        let room = &mut room[usize::from(s.up)];
+        *room = room.min(0.5 * gap);
+    }
+    (-slope / bend).clamp(-room[0], room[1])
 }

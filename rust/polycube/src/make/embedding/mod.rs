@@ -2,6 +2,7 @@
 
 mod edges;
 mod levels;
+mod spans;
 mod surface_map;
 
 use super::charts::ChartedSurface;
@@ -10,8 +11,9 @@ use crate::context::Context;
 use crate::error::{Error, ErrorKind, Result};
 use crate::mesh::{Cells, Mesh};
 use crate::remesh::Refined;
-use crate::structure::{Arrangement, Conflict, LevelBox, Polycube, Tolerance};
-use levels::{Levels, Span};
+use crate::structure::{Arrangement, Conflict, Polycube, Tolerance};
+use levels::Levels;
+use spans::Span;
 
 /// Most orders of two levels that are added to keep parts of the polycube apart.
 const MOST_SEPARATIONS: usize = 200;
@@ -51,25 +53,39 @@ impl<'a> Embedding<'a> {
         Self { charts, levels: Levels::new(charts, loops), labels }
     }
 
-    /// The polycube without conflicts.
+    /// The polycube without conflicts: with edges about as long as on the shape, or else with charts where they are on
+    /// the shape.
     fn place(&mut self, context: &Context) -> Result<(Mesh, Polycube)> {
-        let first = self.levels.as_on_the_shape();
-        let (mut mesh, mut polycube) = self.put(&first, context)?;
-        let longer = self.levels.as_long_as(&self.spans(&polycube));
-        let (long_mesh, long_polycube) = self.put(&longer, context)?;
-        if conflicts(&long_polycube).is_empty() {
-            return outward(long_mesh, long_polycube);
+        let on_the_shape = self.levels.as_on_the_shape();
+        let (_, polycube) = self.put(&on_the_shape, context)?;
+        let mut start = vec![0.0; on_the_shape.len()];
+        let numbers = self.numbers(&polycube);
+        numbers.iter().zip(&polycube.placement).for_each(|(&l, &x)| start[l as usize] = x);
+        let as_long = self.levels.as_long_as(&self.spans(&polycube), &start);
+        let before = self.levels.clone();
+        match self.apart(&as_long, &on_the_shape, &context.stage("embed", 0.0, 0.5)) {
+            Err(error) if error.kind == ErrorKind::Polycube => {
+                self.levels = before;
+                self.apart(&on_the_shape, &on_the_shape, &context.stage("embed", 0.5, 1.0))
+            }
+            placed => placed,
         }
+    }
+
+    /// The polycube with its levels near to `targets`, and more of them in the order that they have on the shape until
+    /// no parts meet.
+    fn apart(&mut self, targets: &[f64], on_the_shape: &[f64], context: &Context) -> Result<(Mesh, Polycube)> {
+        let (mut mesh, mut polycube) = self.put(targets, context)?;
         for added in 0..MOST_SEPARATIONS {
             context.tick(added as f64 / MOST_SEPARATIONS as f64)?;
             let found = conflicts(&polycube);
-            let Some(first_conflict) = found.first() else { return outward(mesh, polycube) };
-            if !self.separate(&polycube, &found, &first) {
-                return Err(self.stuck(&polycube, first_conflict));
+            let Some(first) = found.first() else { return outward(mesh, polycube) };
+            if !self.separate(&polycube, &found, on_the_shape) {
+                break;
             }
-            let again = self.put(&first, context);
+            let again = self.put(targets, context);
             (mesh, polycube) = again.map_err(|e| match e.kind {
-                ErrorKind::Infeasible => self.stuck(&polycube, first_conflict),
+                ErrorKind::Infeasible => self.stuck(&polycube, first),
                 _ => e,
             })?;
         }
@@ -105,36 +121,33 @@ impl<'a> Embedding<'a> {
         numbers
     }
 
-    /// The edges of the polycube with their lengths on the shape.
+    /// How far apart levels, as the loops number them, lie on the shape.
     fn spans(&self, polycube: &Polycube) -> Vec<Span> {
         let numbers = self.numbers(polycube);
-        let step = |s: &[u32]| (self.charts.points[s[0] as usize] - self.charts.points[s[1] as usize]).norm();
-        let edges = polycube.structure.edges.iter().zip(&polycube.chains);
-        let span = |(edge, chain): (_, &Vec<u32>)| {
-            let [low, high] = polycube.structure.ends(edge).map(|l| numbers[l as usize]);
-            Span { low, high, length: chain.windows(2).map(step).sum() }
-        };
-        edges.map(span).collect()
+        let mut spans = spans::spans(polycube, &self.charts.points);
+        spans.iter_mut().for_each(|s| [s.low, s.high] = [s.low, s.high].map(|l| numbers[l as usize]));
+        spans
     }
 
-    /// Keeps parts that meet apart along the axis where they are farthest apart on the shape; whether that adds
-    /// anything.
+    /// Keeps parts that meet apart along the axis where they are farthest apart on the shape, of those whose order is
+    /// still free; whether that adds anything.
     fn separate(&mut self, polycube: &Polycube, found: &[Conflict], on_the_shape: &[f64]) -> bool {
         let numbers = self.numbers(polycube);
-        let at = |level: u32| on_the_shape[numbers[level as usize] as usize];
-        let mut pairs: Vec<[u32; 2]> = Vec::new();
+        let mut adds = false;
         for [one, two] in found.iter().filter_map(|c| c.boxes) {
-            let gap = |low: &LevelBox, high: &LevelBox, a: usize| {
-                (at(high.low[a]) - at(low.high[a]), [low.high[a], high.low[a]])
-            };
-            let gaps = (0..3).flat_map(|a| [gap(&one, &two, a), gap(&two, &one, a)]);
-            let apart = gaps.filter(|(_, [l, h])| l != h).max_by(|a, b| a.0.total_cmp(&b.0));
-            pairs.extend(apart.map(|(_, pair)| pair.map(|l| numbers[l as usize])));
+            let pairs = (0..3).flat_map(|a| [[one.high[a], two.low[a]], [two.high[a], one.low[a]]]);
+            let mut pairs: Vec<[u32; 2]> = pairs.map(|pair| pair.map(|l| numbers[l as usize])).collect();
+            if pairs.iter().any(|&[low, high]| self.levels.is_below(low, high)) {
+                continue;
+            }
+            let gap = |&[low, high]: &[u32; 2]| on_the_shape[high as usize] - on_the_shape[low as usize];
+            pairs.sort_by(|a, b| gap(b).total_cmp(&gap(a)));
+            if let Some([low, high]) = pairs.into_iter().find(|&[l, h]| l != h && !self.levels.is_below(h, l)) {
+                self.levels.separate(low, high);
+                adds = true;
+            }
         }
-        pairs.sort_unstable();
-        pairs.dedup();
-        pairs.iter().for_each(|&[low, high]| self.levels.separate(low, high));
-        !pairs.is_empty()
+        adds
     }
 
     /// The error for parts that no order of levels keeps apart, with a face of one of them.
