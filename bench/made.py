@@ -48,7 +48,7 @@ def made(program, shape, folder):
     if code not in FINISHED:
         return row | {"said": said}
     report = json.loads((folder / "made/report.json").read_text())
-    return row | {name: report[name] for name in ("corners", "misfit")} | {"folded": len(report["folded"])}
+    return row | {name: report[name] for name in ("corners", "misfit", "squashed")} | {"folded": len(report["folded"])}
 
 
 def meshed(program, hexes, folder):
@@ -70,6 +70,7 @@ COLUMNS = {
     "corners": "{corners}",
     "folded": "{folded}",
     "misfit": "{misfit:.4f}",
+    "squashed": "{squashed:.4f}",
     "make s": "{make_seconds:.1f}",
     "hexahedra": "{hexes}",
     "blocks": "{blocks}",

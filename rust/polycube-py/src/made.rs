@@ -69,7 +69,7 @@ impl PyMade {
     }
 
     /// What was made and how good it is, as in the command's report.json: corners, edges, facets, genus, misfit,
-    /// distortion, added vertices, folded triangles, seconds.
+    /// squashed, distortion, added vertices, folded triangles, seconds.
     #[getter]
     fn report<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
         to_dict(py, &self.0.report)

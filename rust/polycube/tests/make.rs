@@ -3,7 +3,8 @@
 mod common;
 
 use common::{cases, coarse, data, dense};
-use polycube::generate::{Example, example, random_polycube};
+use nalgebra::Matrix2;
+use polycube::generate::{Cuboid, Example, Voxels, example, random_polycube};
 use polycube::make::{Made, MakeOptions, make};
 use polycube::mesh::{CellKind, Cells, Mesh, Point, Simplices, read, write_bytes};
 use polycube::structure::{Polycube, Tolerance};
@@ -69,6 +70,44 @@ fn bent(mesh: &Mesh) -> Mesh {
         Point::new(p.x + 0.1 * size * q.y * q.y, p.y + 0.08 * size * q.z * q.x, p.z + 0.1 * size * q.x * q.x)
     };
     mesh.moved(bend).expect("finite points")
+}
+
+/// The share of the surface whose Jacobian has a singular value below a quarter, by decomposing each.
+fn squashed(made: &Made) -> f64 {
+    let scale = (area(&made.shape) / area(&made.polycube)).sqrt();
+    let plane = |[a, b, c]: [Point; 3]| {
+        let (u, v) = (b - a, c - a);
+        let e = u.normalize();
+        let f = (v - e * v.dot(&e)).normalize();
+        Matrix2::new(u.dot(&e), v.dot(&e), u.dot(&f), v.dot(&f))
+    };
+    let small = |t: &[u32; 3]| {
+        let [before, after] = [&made.shape, &made.polycube].map(|m| plane(t.map(|v| m.points()[v as usize])));
+        (after * before.try_inverse().unwrap()).singular_values().min() * scale < 0.25
+    };
+    let doubled = |t: &[u32; 3]| {
+        let [a, b, c] = t.map(|v| made.shape.points()[v as usize]);
+        (b - a).cross(&(c - a)).norm()
+    };
+    triangles(&made.shape).iter().filter(|t| small(t)).map(doubled).sum::<f64>() / 2.0 / area(&made.shape)
+}
+
+/// A square ring, one of whose bars runs up to a ridge: no edge of it tells how wide the facet around the hole is there.
+fn ridged() -> Mesh {
+    let bars = [([0, 0], [9, 2]), ([0, 7], [9, 9]), ([0, 2], [2, 7]), ([7, 2], [9, 7])];
+    let bars = bars.map(|([a, b], [c, d])| Cuboid::new([a, b, 0], [c, d, 2]));
+    let ring = Voxels::from_boxes(&bars).unwrap().mesh(CellKind::Triangles, 1.0).unwrap();
+    let lift = |p: &Point| Point::new(p.x, p.y, if p.z >= 2.0 { p.z + 1.5 * (p.x - 7.0).max(0.0) } else { p.z });
+    ring.moved(lift).unwrap()
+}
+
+#[test]
+fn little_is_squashed_and_how_much_is_told() {
+    let shape = ridged();
+    let made = made(&shape, "ridge");
+    assert_good(&shape, &made, "ridge");
+    assert!((squashed(&made) - made.report.squashed).abs() < 1e-9);
+    assert!(made.report.squashed < 0.05, "{}", made.report.squashed);
 }
 
 #[test]

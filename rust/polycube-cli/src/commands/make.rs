@@ -21,7 +21,7 @@ In the output folder:
                   of SHAPE come first and keep their numbers
   polycube.EXT    the polycube, vertex by vertex and triangle by triangle that of shape.EXT
   polycube.labels the label of each of its faces, one a line, for --labels
-  report.json     corners, edges, facets, genus, misfit, distortion, added vertices, times
+  report.json     corners, edges, facets, genus, misfit, squashed, distortion, added vertices, times
 They appear together when all is done, or not at all. Then
   polycube remesh out/shape.EXT --polycube out/polycube.EXT --labels out/polycube.labels -o mesh
 meshes the shape. SHAPE is a closed surface of triangles or quadrilaterals, of any genus and any

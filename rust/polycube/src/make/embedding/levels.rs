@@ -17,6 +17,8 @@ const GAP: i64 = 8;
 const SWEEPS: usize = 1000;
 /// Lattice steps that matter no more.
 const SETTLED: f64 = 0.01;
+/// The least length of a span that is aimed at, in lattice steps.
+const SHORTEST: f64 = 0.01;
 /// How strongly a level is pulled to where it was, for each squared lattice step, as a share of the whole surface.
 const PULL: f64 = 1e-9;
 /// How strongly the order of two levels without an edge between them pushes, as a share of the whole surface.
@@ -131,7 +133,7 @@ impl Levels {
             beside[high as usize].push(Spring { to: low, up: false, length, pull, push });
         };
         for s in spans {
-            tie([s.low, s.high], s.length.max(f64::MIN_POSITIVE) * self.scale, s.area, s.area);
+            tie([s.low, s.high], (s.length * self.scale).max(SHORTEST), s.area, s.area);
         }
         let total: f64 = spans.iter().map(|s| s.area).sum();
         for d in &self.differences {
