@@ -83,7 +83,7 @@ fn squashed(made: &Made) -> f64 {
     };
     let small = |t: &[u32; 3]| {
         let [before, after] = [&made.shape, &made.polycube].map(|m| plane(t.map(|v| m.points()[v as usize])));
-        (after * before.try_inverse().unwrap()).singular_values().min() * scale < 0.25
+        (after * before.try_inverse().expect("an area")).singular_values().min() * scale < 0.25
     };
     let doubled = |t: &[u32; 3]| {
         let [a, b, c] = t.map(|v| made.shape.points()[v as usize]);
@@ -96,9 +96,9 @@ fn squashed(made: &Made) -> f64 {
 fn ridged() -> Mesh {
     let bars = [([0, 0], [9, 2]), ([0, 7], [9, 9]), ([0, 2], [2, 7]), ([7, 2], [9, 7])];
     let bars = bars.map(|([a, b], [c, d])| Cuboid::new([a, b, 0], [c, d, 2]));
-    let ring = Voxels::from_boxes(&bars).unwrap().mesh(CellKind::Triangles, 1.0).unwrap();
+    let ring = Voxels::from_boxes(&bars).and_then(|v| v.mesh(CellKind::Triangles, 1.0)).expect("a ring");
     let lift = |p: &Point| Point::new(p.x, p.y, if p.z >= 2.0 { p.z + 1.5 * (p.x - 7.0).max(0.0) } else { p.z });
-    ring.moved(lift).unwrap()
+    ring.moved(lift).expect("finite points")
 }
 
 #[test]
