@@ -92,7 +92,7 @@ fn squashed(made: &Made) -> f64 {
     triangles(&made.shape).iter().filter(|t| small(t)).map(doubled).sum::<f64>() / 2.0 / area(&made.shape)
 }
 
-/// A square ring, one of whose bars runs up to a ridge: no edge of it tells how wide the facet around the hole is there.
+/// A square ring, one of whose bars runs up to a ridge: no edge tells how wide the facet around the hole is there.
 fn ridged() -> Mesh {
     let bars = [([0, 0], [9, 2]), ([0, 7], [9, 9]), ([0, 2], [2, 7]), ([7, 2], [9, 7])];
     let bars = bars.map(|([a, b], [c, d])| Cuboid::new([a, b, 0], [c, d, 2]));
