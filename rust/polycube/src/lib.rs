@@ -32,6 +32,7 @@ pub mod compare;
 pub mod context;
 pub mod error;
 pub mod generate;
+mod input;
 pub mod layout;
 pub mod make;
 mod map;
@@ -55,4 +56,5 @@ mod data;
 
 pub use context::Context;
 pub use error::{Error, ErrorKind, Place, Result};
-pub use simplify::{Input, Simplified, SimplifyOptions, SimplifyReport};
+pub use input::Input;
+pub use simplify::{Simplified, SimplifyOptions, SimplifyReport};

@@ -21,6 +21,7 @@ mod report;
 mod tests;
 mod untangling;
 
+pub use crate::input::Input;
 pub(crate) use compatibility::{Misfit, check_compatible, check_side};
 pub(crate) use corner_tetrahedra::CornerTetrahedra;
 pub(crate) use diagnosis::remedy;
@@ -29,17 +30,6 @@ pub use front::Located;
 pub use note::{Cause, Note};
 pub use report::{Seconds, SimplifyReport};
 pub(crate) use untangling::untangle_morphed;
-
-/// What is simplified.
-#[derive(Clone, Copy, Debug)]
-pub struct Input<'a> {
-    /// The polycube.
-    pub polycube: &'a Mesh,
-    /// The shape it was deformed from, with the same cells; used to measure the distortion of the map.
-    pub shape: Option<&'a Mesh>,
-    /// One label per boundary face of the polycube (0 to 5, −1 for "by the normal").
-    pub labels: Option<&'a [i8]>,
-}
 
 /// How it is simplified.
 #[derive(Clone, Debug, Default, PartialEq)]

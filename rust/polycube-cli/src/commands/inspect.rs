@@ -78,7 +78,7 @@ struct Found {
 /// Prints what was found.
 pub fn run(args: &Args) -> Result<ExitCode> {
     let file = &args.mesh.polycube;
-    let meshes = MeshFiles::read(file, None, &args.mesh.labels)?;
+    let meshes = MeshFiles::read(file, None, args.mesh.labels.given())?;
     let given = meshes.input();
     let repaired = if args.mesh.tolerance.no_repair { None } else { repair(&given) };
     let input = repaired.as_ref().map_or(given, Repaired::input);

@@ -70,7 +70,7 @@ fn check(args: &Args) -> Result<Vec<Finding>> {
         }
     };
     let labels = match mesh.cells().boundary() {
-        Ok(_) => read_labels(&args.mesh.labels, &args.mesh.polycube, &mesh)?,
+        Ok(_) => read_labels(args.mesh.labels.given(), &args.mesh.polycube, &mesh)?,
         Err(_) => None,
     };
     let input = Input { polycube: &mesh, shape: shape.as_ref(), labels: labels.as_deref() };

@@ -1,12 +1,18 @@
 //! The meshes and labels that a subcommand works on.
 
 use crate::failure::{Failure, Result};
-use crate::options::polycube::LabelsArg;
 use polycube::make::{Made, MakeOptions, make};
-use polycube::mesh::{self, Mesh};
+use polycube::mesh::{self, LabelOrder, Mesh};
 use polycube::simplify::Input;
 use polycube::{Context, Error, ErrorKind};
 use std::path::Path;
+
+/// A file of labels and what its numbers stand for.
+#[derive(Clone, Copy)]
+pub struct LabelFile<'a> {
+    pub file: &'a Path,
+    pub order: Option<&'a LabelOrder>,
+}
 
 /// A polycube, with the shape and the labels that came with it.
 pub struct MeshFiles {
@@ -20,7 +26,7 @@ pub struct MeshFiles {
 
 impl MeshFiles {
     /// Reads the files.
-    pub fn read(polycube: &Path, shape: Option<&Path>, labels: &LabelsArg) -> Result<Self> {
+    pub fn read(polycube: &Path, shape: Option<&Path>, labels: Option<LabelFile>) -> Result<Self> {
         let (mesh, shape) = read_meshes(polycube, shape).map_err(Failure::in_reading)?;
         mesh.cells().boundary().map_err(Failure::in_file(polycube))?;
         let labels = read_labels(labels, polycube, &mesh)?;
@@ -49,9 +55,9 @@ pub fn read_meshes(polycube: &Path, shape: Option<&Path>) -> polycube::Result<(M
 }
 
 /// Reads one label for each boundary face of `mesh`, which came from the file `of`, if any are given.
-pub fn read_labels(labels: &LabelsArg, of: &Path, mesh: &Mesh) -> Result<Option<Vec<i8>>> {
-    let Some(file) = &labels.file else { return Ok(None) };
-    Ok(Some(mesh::read_labels_of(mesh, Some(of), file, labels.order.as_ref())?))
+pub fn read_labels(labels: Option<LabelFile>, of: &Path, mesh: &Mesh) -> Result<Option<Vec<i8>>> {
+    let Some(LabelFile { file, order }) = labels else { return Ok(None) };
+    Ok(Some(mesh::read_labels_of(mesh, Some(of), file, order)?))
 }
 
 /// The text of a file that is no mesh but, say, a "list".

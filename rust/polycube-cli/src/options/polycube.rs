@@ -1,6 +1,7 @@
 //! The polycube that a subcommand works on.
 
 use super::number::{degrees, fraction};
+use crate::input::meshes::LabelFile;
 use clap::{Args, ValueHint};
 use polycube::mesh::LabelOrder;
 use polycube::structure::Tolerance;
@@ -39,6 +40,13 @@ pub struct LabelsArg {
         value_parser = order
     )]
     pub order: Option<LabelOrder>,
+}
+
+impl LabelsArg {
+    /// The file, if one was given.
+    pub fn given(&self) -> Option<LabelFile<'_>> {
+        Some(LabelFile { file: self.file.as_deref()?, order: self.order.as_ref() })
+    }
 }
 
 fn order(text: &str) -> Result<LabelOrder, String> {

@@ -6,8 +6,8 @@ mod surplus;
 mod weld;
 mod winding;
 
+use crate::input::Input;
 use crate::mesh::{Cells, Face, Mesh, Point};
-use crate::simplify::Input;
 use std::collections::HashMap;
 use std::fmt;
 

@@ -162,7 +162,7 @@ pub fn run(args: &Args) -> Result<ExitCode> {
 /// Reads the polycube, or makes one.
 fn meshes(args: &Args, context: &Context) -> Result<MeshFiles> {
     match &args.polycube {
-        Some(polycube) => MeshFiles::read(polycube, Some(&args.shape), &args.labels),
+        Some(polycube) => MeshFiles::read(polycube, Some(&args.shape), args.labels.given()),
         None => MeshFiles::make(&args.shape, &args.make.get(), context),
     }
 }

@@ -169,7 +169,7 @@ pub struct Done {
 pub fn work(args: &Args, context: &Context) -> Result<Done> {
     let start = Instant::now();
     context.stage("read", 0.0, 0.1).tick(0.0)?;
-    let meshes = MeshFiles::read(&args.mesh.polycube, args.shape.as_deref(), &args.mesh.labels)?;
+    let meshes = MeshFiles::read(&args.mesh.polycube, args.shape.as_deref(), args.mesh.labels.given())?;
     let format = output_format(args, &meshes)?;
     let read = start.elapsed().as_secs_f64();
     let middle = context.stage("read", 0.1, if args.pareto { 0.5 } else { 0.9 });

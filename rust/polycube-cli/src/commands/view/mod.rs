@@ -104,7 +104,7 @@ pub fn run(args: &Args) -> Result<ExitCode> {
 
 fn work(args: &Args, context: &Context) -> Result<()> {
     context.stage("read", 0.0, 0.1).tick(0.0)?;
-    let meshes = MeshFiles::read(&args.mesh.polycube, args.shape.as_deref(), &args.mesh.labels)?;
+    let meshes = MeshFiles::read(&args.mesh.polycube, args.shape.as_deref(), args.mesh.labels.given())?;
     let hexes = args.hexes.as_deref().map(hexes::read).transpose()?;
     let options = polycube::SimplifyOptions {
         strategy: args.strategy.0,
