@@ -111,9 +111,11 @@ fn translation_by_whole_steps_moves_the_result() {
     for seed in 0..cases(150) {
         let mesh = sample(seed, CellKind::Quads);
         let by = [7, -30, 101];
-        let one = checked(&mesh, &paper(), "in place");
+        // By default the steps are as long as the edges of the mesh.
+        let options = SimplifyOptions { scale: Some(1.0), ..paper() };
+        let one = checked(&mesh, &options, "in place");
         let moved = translate(&mesh, Vector3::from(by.map(f64::from))).unwrap();
-        let other = checked(&moved, &paper(), "moved");
+        let other = checked(&moved, &options, "moved");
         let axes = one.input.structure.levels.iter().map(|l| l.axis);
         let expected: Vec<i64> = one.levels.iter().zip(axes).map(|(x, a)| x + i64::from(by[a])).collect();
         assert_eq!(other.levels, expected, "seed {seed}");
