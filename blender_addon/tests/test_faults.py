@@ -73,8 +73,6 @@ def crossing(points, faces):
 
 @pytest.mark.parametrize("spoil, message", [
     (hole, "open here"),
-    (turned, "oriented against each other"),
-    (inside_out, "looks inward"),
     (wing, "more than two faces|open here"),
     (spike, "off the"),
     (bow, "off the nearest axis|chart|corner"),
@@ -92,6 +90,19 @@ def test_bad_meshes_are_shown_in_edit_mode(settings, spoil, message):
         bpy.ops.object.mode_set(mode='OBJECT')
         after = snapshot()
         assert [(name, state[:2]) for name, state in after.items()] == [(n, s[:2]) for n, s in before.items()]
+
+
+@pytest.mark.parametrize("spoil, message", [
+    (turned, "oriented against each other"),
+    (inside_out, "looks inward"),
+])
+def test_faces_the_wrong_way_round_are_shown_by_check_and_turned_by_simplify(settings, spoil, message):
+    settings.polycube = add("Bad", *spoil(*solid()))
+    with pytest.raises(RuntimeError, match=message):
+        ops.check()
+    assert bpy.context.mode == 'EDIT_MESH' and any(selected())
+    bpy.ops.object.mode_set(mode='OBJECT')
+    assert ops.simplify() == {'FINISHED'}
 
 
 def test_exactly_the_open_edges_are_selected(settings):
