@@ -66,9 +66,9 @@ def not_finite(points, faces):
 
 
 def crossing(points, faces):
-    """A second cube through the underside of the plate."""
+    """A second cube through the top of the plate."""
     cube, sides = solid((((0, 0, 0), (1, 1, 1)),))
-    return np.vstack([points, cube + [4.5, 4.5, -0.5]]), [*faces, *(np.array(sides) + len(points)).tolist()]
+    return np.vstack([points, cube + [4.5, 4.5, 1.5]]), [*faces, *(np.array(sides) + len(points)).tolist()]
 
 
 @pytest.mark.parametrize("spoil, message", [
