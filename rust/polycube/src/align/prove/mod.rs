@@ -32,7 +32,7 @@
 //! stretch surely ends before or begins after it; and it surely crosses an edge if that is the only one that it can
 //! meet next and the line lies strictly between its ends.
 //!
-//! *FacetGrid.* Take levels of F's sides, and of sure lines that are comparable to all of these, and cut each of F's
+//! *Grid.* Take levels of F's sides, and of sure lines that are comparable to all of these, and cut each of F's
 //! two axes wherever all levels on one side of the cut are surely below all on the other. The gap between two such
 //! classes of levels exists in every completion, hence so does each product of two gaps, a *cell*; and whether it
 //! lies in F is known, for the ends of a side relative to the gap are. Count the cells inside F that are *parted*
