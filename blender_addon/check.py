@@ -4,12 +4,12 @@
 import bpy
 import polycube
 
-from . import faults, jobs, settings, source
+from . import crossings, faults, jobs, settings, source
 
 
-class POLYCUBE_OT_check(jobs.Idle, settings.ToleranceOptions, bpy.types.Operator):
-    """Check that the polycube is closed, that every face looks along an axis, and that shape and polycube fit.
-    Selects what is wrong in edit mode"""
+class POLYCUBE_OT_check(jobs.NeedsMesh, settings.ToleranceOptions, bpy.types.Operator):
+    """Check that the polycube is closed, that every face looks along an axis, and that shape and polycube fit; of an
+    object without a polycube, that one can be made. Selects what is wrong in edit mode"""
 
     bl_idname = "polycube.check"
     bl_label = "Check"
@@ -21,14 +21,23 @@ class POLYCUBE_OT_check(jobs.Idle, settings.ToleranceOptions, bpy.types.Operator
         try:
             jobs.leave_edit_mode(context)
             read = source.read(context)
-            violations = polycube.check(read.polycube, shape=read.shape, **self.tolerances())
+            violations = faults.violations(read, self)
             if violations:
                 return faults.report_all(self, context, violations, read)
+            if read.plain:
+                return self._closed(read)
             counts = polycube.structure(read.polycube, **self.tolerances()).counts
         except (faults.Refused, polycube.PolycubeError) as error:
             return faults.report(self, context, error, read)
         self.report({'INFO'}, f"A valid polycube: {counts.surface_patches} patches, {counts.blocks} blocks, "
                               f"{counts.blocks_padded} with padding")
+        return {'FINISHED'}
+
+
+    def _closed(self, read):
+        """Says that a polycube can be made."""
+        self.report({'INFO'}, f"{read.holder} is closed: {read.polygon_count} faces, a polycube can be made")
+        crossings.warn(self, read)
         return {'FINISHED'}
 
 

@@ -8,7 +8,7 @@ import numpy as np
 import polycube
 from bpy.props import EnumProperty, StringProperty
 
-from . import faults, jobs, quads, settings
+from . import crossings, faults, jobs, quads, settings, source
 
 FORMATS = (
     ('.vtu', "VTK (.vtu)", "For ParaView and PyVista, with scaled_jacobian, edge_ratio, block_id and more"),
@@ -20,7 +20,7 @@ FIELDS = ("block_id", "label", "scaled_jacobian", "edge_ratio", "determinant", "
 
 
 class POLYCUBE_OT_write_hexes(jobs.JobOperator, settings.SearchOptions, settings.ToleranceOptions,
-                              settings.VolumeOptions, bpy.types.Operator):
+                              settings.VolumeOptions, settings.MakeOptions, bpy.types.Operator):
     """Fill the shape with hexahedra and write them to a file"""
 
     bl_idname = "polycube.write_hexes"
@@ -55,6 +55,7 @@ class POLYCUBE_OT_write_hexes(jobs.JobOperator, settings.SearchOptions, settings
         self.report({'INFO'}, f"{summary.replace(chr(10), ', ')}: {os.path.basename(self.filepath)}")
         for note in meshes.notes:
             self.report({'WARNING'}, note)
+        crossings.warn(self, read)
 
 
 def in_scene(obj, points):
@@ -65,7 +66,7 @@ def in_scene(obj, points):
     return points @ matrix[:3, :3].T + matrix[:3, 3]
 
 
-class POLYCUBE_OT_export_hexes(jobs.Idle, bpy.types.Operator):
+class POLYCUBE_OT_export_hexes(jobs.NeedsMesh, bpy.types.Operator):
     """Fill the shape with hexahedra that follow the block structure and write them to a file for simulation,
     in the coordinates of the scene"""
 
@@ -79,8 +80,7 @@ class POLYCUBE_OT_export_hexes(jobs.Idle, bpy.types.Operator):
 
     def invoke(self, context, _event):
         if not self.filepath:
-            name = context.scene.polycube.shape.name if context.scene.polycube.shape else "hexes"
-            self.filepath = bpy.path.clean_name(name) + self.format
+            self.filepath = bpy.path.clean_name(source.chosen(context).name) + self.format
         context.window_manager.fileselect_add(self)
         return {'RUNNING_MODAL'}
 

@@ -5,8 +5,31 @@ import bmesh
 import bpy
 import polycube
 
+from . import crossings
+
 # More reports than this would hide the first one.
 MOST_REPORTED = 5
+# What to do about a broken rule, in Blender's own words.
+REMEDIES = {
+    "empty": "add faces in edit mode, or choose another object",
+    "bad_face": "Mesh > Clean Up > Degenerate Dissolve",
+    "flat_face": "Mesh > Clean Up > Degenerate Dissolve",
+    "open_edge": "Mesh > Merge > By Distance where vertices lie at one place, else Mesh > Clean Up > Fill Holes, or a "
+    "Solidify or Remesh modifier",
+    "non_manifold_edge": "delete double and inner faces: Mesh > Merge > By Distance, Select > All by Trait > Interior "
+    "Faces, Mesh > Delete > Faces",
+    "inconsistent_orientation": "Mesh > Normals > Recalculate Outside",
+    "inside_out": "Mesh > Normals > Recalculate Outside",
+    "non_manifold_vertex": "Vertex > Rip Vertices for each sheet",
+}
+# What keeps any shape from having a polycube; other rules are about polycubes.
+OF_SURFACES = ("empty", "bad_face", "open_edge", "non_manifold_edge", "inconsistent_orientation", "non_manifold_vertex")
+# What to do where no polycube is found although the surface is sound.
+UNMADE = {
+    polycube.InvalidMesh: "Mesh > Normals > Recalculate Outside",
+    polycube.InvalidPolycube: "raise Detail, or rework the shape around the face selected: Edge > Subdivide, Vertex > "
+    "Smooth Vertices",
+}
 
 
 class Refused(Exception):
@@ -32,13 +55,35 @@ def report(operator, context, error, source=None):
         return {'CANCELLED'}
     if source is not None and isinstance(error, (polycube.InvalidMesh, polycube.InvalidPolycube)):
         # The error tells of the first violation only.
-        violations = polycube.check(source.polycube, shape=source.shape, **operator.tolerances())
-        if violations:
-            return report_all(operator, context, violations, source)
-    operator.report({'ERROR'}, _sentence(str(error)))
+        found = violations(source, operator)
+        if found:
+            return report_all(operator, context, found, source)
+    operator.report({'ERROR'}, _sentence(_text(error, source)))
     if source is not None and getattr(error, "elements", None):
         show(context, source, [(error.element, error.elements)])
     return {'CANCELLED'}
+
+
+def violations(source, operator):
+    """Everything that is wrong with a polycube, or with a shape that one is to be made of."""
+    if source.polycube is not None:
+        return polycube.check(source.polycube, labels=source.labels, shape=source.shape, **operator.tolerances())
+    return [v for v in polycube.check(source.shape) if v.kind in OF_SURFACES]
+
+
+def _text(error, source):
+    """An error in Blender's words where the core's are others."""
+    unmade = source is not None and source.plain and source.polycube is None
+    remedy = UNMADE.get(type(error)) if unmade else None
+    return f"{error.message} ({remedy})" if remedy else str(error)
+
+
+def report_folds(operator, source):
+    """Warns where the map to a polycube that was made is not one to one."""
+    folded = source.made.report["folded"] if source.made else ()
+    if folded:
+        text = f"{len(folded)} triangles are turned over on the polycube (raise Detail, or smooth the shape)"
+        operator.report({'WARNING'}, text)
 
 
 def report_all(operator, context, violations, source):
@@ -49,7 +94,10 @@ def report_all(operator, context, violations, source):
     for found in list(rules.values())[:MOST_REPORTED]:
         more = f"; {len(found) - 1} more like it" if len(found) > 1 else ""
         first = found[0]
-        operator.report({'ERROR'}, _sentence(f"{_where(first, source)}{first.message}{more} ({first.remedy})"))
+        operator.report({'ERROR'}, _sentence(f"{_where(first, source)}{first.message}{more} "
+                                          f"({REMEDIES.get(first.kind, first.remedy)})"))
+    if source.plain:
+        crossings.warn(operator, source, 'ERROR')
     show(context, source, [(v.element, v.elements) for v in violations if v.element])
     return {'CANCELLED'}
 
@@ -109,7 +157,8 @@ def _select(mesh, source, places):
 
 def _elements(bm, source, kind, numbers):
     if kind in {"face", "cell"}:
-        return [bm.faces[source.polygon_of_cell[i]] for i in numbers]
+        # Numbers beyond those of the mesh are of faces that were cut to make a polycube.
+        return [bm.faces[source.polygon_of_cell[i]] for i in numbers if i < len(source.polygon_of_cell)]
     vertices = [bm.verts[i] for i in numbers] if kind in {"vertex", "edge"} else []
     edge = bm.edges.get(vertices) if kind == "edge" else None
     return [edge] if edge else vertices

@@ -4,16 +4,24 @@
 import bpy
 import polycube
 
-from . import faults, source
+from . import faults, live, source
 
 # Seconds between two looks at a running job.
 TICK = 0.05
+# The part of all that making a polycube takes in the progress that is shown.
+MAKING = 0.25
 
 
 class _Running:
     """The one job that may run at a time."""
 
     job = None
+    span = (0.0, 1.0)
+    """Where in all that is to be done the job begins and ends."""
+
+    @classmethod
+    def start(cls, job, low, high):
+        cls.job, cls.span = job, (low, high)
 
 
 def running():
@@ -30,8 +38,11 @@ def stop(*_):
 
 
 def status():
-    """What the job at work is doing: the name of the stage and the part done, 0 to 1."""
-    return _Running.job.progress if running() else ("", 0.0)
+    """What the job at work is doing: the name of the stage and the part done of all, 0 to 1."""
+    if not running():
+        return "", 0.0
+    (stage, part), (low, high) = _Running.job.progress, _Running.span
+    return stage, low + (high - low) * part
 
 
 class Idle:
@@ -45,15 +56,31 @@ class Idle:
         return context.scene is not None
 
 
-class JobOperator(Idle):
+class NeedsMesh(Idle):
+    """Mix-in for operators that need an object to work on."""
+
+    @classmethod
+    def poll(cls, context):
+        if not super().poll(context):
+            return False
+        if source.chosen(context) is None:
+            cls.poll_message_set("Select a mesh object, choose one in the panel, or add an example")
+            return False
+        return True
+
+
+class JobOperator(NeedsMesh):
     """Mix-in for operators that start a job of the core and make something of its result.
 
-    A class says what to do in `begin`, which reads the scene and gives a `polycube.Job`, and in `finish`, which changes
-    the scene; both run on the main thread and may raise `faults.Refused` or `polycube.PolycubeError`. Pressed in the
-    panel the job runs while Blender stays usable; from scripts and the redo panel the operator waits for it.
+    A class says what to do in `begin`, which is given what `read` took from the scene and gives a `polycube.Job`, and
+    in `finish`, which changes the scene; both run on the main thread and may raise `faults.Refused` or
+    `polycube.PolycubeError`. For a plain shape a job that makes the polycube goes first. Pressed in the panel the jobs
+    run while Blender stays usable; from scripts and the redo panel the operator waits for them.
     """
 
     bl_options = {'REGISTER', 'UNDO'}
+    _making = False
+    """Whether the job at work makes a polycube for one that comes after it."""
 
     def invoke(self, context, _event):
         if bpy.app.background or context.window is None:
@@ -67,11 +94,11 @@ class JobOperator(Idle):
 
     def execute(self, context):
         answer = self._start(context)
-        if answer is not None:
-            return answer
-        while not self._job.wait(TICK):
-            self._show(context)
-        return self._end(context)
+        while answer is None:
+            while not self._job.wait(TICK):
+                self._show(context)
+            answer = self._go_on(context)
+        return answer
 
     def modal(self, context, event):
         if event.type == 'ESC' and event.value == 'PRESS':
@@ -82,7 +109,7 @@ class JobOperator(Idle):
         if not self._job.done:
             self._show(context)
             return {'PASS_THROUGH'}
-        return self._end(context)
+        return self._go_on(context) or {'PASS_THROUGH'}
 
     def cancel(self, context):
         """Called by Blender when the window goes away."""
@@ -96,11 +123,46 @@ class JobOperator(Idle):
         self._source = None
         try:
             leave_edit_mode(context)
-            self._source = source.read(context)
-            self._job = _Running.job = self.begin(context, self._source)
+            self._source = self.read(context)
+            self.admit(self._source)
+            self._next(context)
         except (faults.Refused, polycube.PolycubeError) as error:
             return faults.report(self, context, error, self._source)
         context.window_manager.progress_begin(0.0, 100.0)
+        return None
+
+    def read(self, context):
+        """What the job is about."""
+        return source.read(context)
+
+    def admit(self, read):
+        """Refuses, before anything is made of a plain shape, options that do not go with it."""
+        if read.plain:
+            source.locked_cells(read, self, None)
+
+    def next_job(self, context, read):
+        """Starts to make the polycube of a plain shape, or what comes after that."""
+        kept = live.made_of(read, self.detail) if read.plain else None
+        if kept is not None:
+            read.take(kept)
+        self._making = read.polycube is None
+        return polycube.Job.make(read.shape, detail=self.detail) if self._making else self.begin(context, read)
+
+    def _next(self, context):
+        low = 0.0 if _Running.job is None else MAKING
+        self._job = self.next_job(context, self._source)
+        _Running.start(self._job, low, MAKING if self._making else 1.0)
+
+    def _go_on(self, context):
+        """After a job that is done: the next one, or the end, which gives an answer."""
+        if not self._making:
+            return self._end(context)
+        try:
+            live.keep_made(self._source, self.detail, self._job.result())
+            self._next(context)
+        except (faults.Refused, polycube.PolycubeError) as error:
+            self._clean_up(context)
+            return faults.report(self, context, error, self._source)
         return None
 
     def _end(self, context):
@@ -111,12 +173,13 @@ class JobOperator(Idle):
             if not self._source.unchanged(context):
                 raise faults.Refused("shape or polycube were changed meanwhile", "start again")
             self.finish(context, self._source, result)
+            faults.report_folds(self, self._source)
         except (faults.Refused, polycube.PolycubeError) as error:
             return faults.report(self, context, error, self._source)
         return {'FINISHED'}
 
     def _show(self, context):
-        stage, part = self._job.progress
+        stage, part = status()
         context.window_manager.progress_update(100.0 * part)
         context.workspace.status_text_set(f"Polycube: {stage}, {100.0 * part:.0f} %.  Esc to cancel")
         _redraw(context)

@@ -9,7 +9,7 @@ from . import colours, curves, jobs, panel, quads, results, settings
 
 
 class POLYCUBE_OT_show_layout(jobs.JobOperator, settings.SearchOptions, settings.ToleranceOptions, settings.MeshOptions,
-                              bpy.types.Operator):
+                              settings.MakeOptions, bpy.types.Operator):
     """Show the patches that the blocks of the polycube make on the shape, with their borders and the singular edges,
     as new objects"""
 
@@ -38,7 +38,7 @@ class POLYCUBE_OT_show_layout(jobs.JobOperator, settings.SearchOptions, settings
         shape = bpy.data.objects[read.shape_name or read.holder]
         patches = meshes.layout.patches
         mesh = bpy.data.meshes.new("Layout")
-        quads.set_quads(mesh, patches.points / read.shape_size, patches.cells)
+        results.set_faces(mesh, patches.points / read.shape_size, patches.cells)
         colours.write(mesh, block_id=np.arange(len(patches.cells)), label=meshes.layout.patch_label)
         return shape, [results.new_object(context, shape, f"{shape.name} Layout", mesh)]
 

@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The last simplified polycube, kept in memory so that the Simplicity slider can move along what was found."""
+"""What is kept in memory: the last simplified polycube, so that the Simplicity slider can move along what was found,
+and the last polycube that was made, so that it is made once."""
 
 import random
 
@@ -18,6 +19,23 @@ class _Last:
     still = False
 
 
+class _Made:
+    """The last polycube that was made of a plain shape, and of what."""
+
+    key = None
+    made = None
+
+
+def keep_made(source, detail, made):
+    """Keeps what was made of a plain shape."""
+    _Made.key, _Made.made = (source.fingerprint, detail), made
+
+
+def made_of(source, detail):
+    """What was made of this very shape, or None."""
+    return _Made.made if _Made.key == (source.fingerprint, detail) else None
+
+
 def remember(source, found):
     """Keeps a result; gives the token by which the scene tells that it shows this one."""
     # A scene keeps its token in its file, so those of other sessions must not be met again by counting.
@@ -29,6 +47,7 @@ def remember(source, found):
 def forget():
     """Frees the memory."""
     _Last.source = _Last.found = _Last.shown = None
+    _Made.key = _Made.made = None
 
 
 def current(settings):

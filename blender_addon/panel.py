@@ -7,7 +7,7 @@ import bpy
 from bl_operators.presets import AddPresetBase
 from bl_ui.utils import PresetPanel
 
-from . import jobs, live, settings
+from . import jobs, live, settings, source
 
 PRESETS = "polycube"
 # Characters in a line of the sidebar as Blender opens it.
@@ -35,7 +35,7 @@ class POLYCUBE_OT_preset_add(AddPresetBase, bpy.types.Operator):
     preset_values = [
         f"polycube.{name}"
         for name in ("strategy", "objective", "simplicity", "steps", "max_distortion", "angle_tolerance",
-                     "level_tolerance", "blocks_from", "padding")
+                     "level_tolerance", "blocks_from", "padding", "detail")
     ]
 
 
@@ -53,10 +53,15 @@ class VIEW3D_PT_polycube(_SidePanel, bpy.types.Panel):
         layout.use_property_split = True
         layout.use_property_decorate = False
         _draw_inputs(layout, choice)
+        for line in explain(context):
+            layout.label(text=line)
         if jobs.running():
             stage, part = jobs.status()
             layout.progress(factor=part, text=f"{stage.capitalize()}  (Esc to cancel)")
             return
+        if choice.source == 'OBJECTS' and choice.polycube is None:
+            layout.prop(choice, "detail", slider=True)
+            layout.operator("polycube.make", icon='MESH_CUBE')
         row = layout.row(align=True)
         row.operator("polycube.check", icon='CHECKMARK')
         row.operator_menu_enum("polycube.add_example", "example", icon='ADD')
@@ -120,6 +125,18 @@ def _draw_inputs(layout, choice):
         layout.prop_search(choice, "key", choice.shape.data.shape_keys, "key_blocks", text="Polycube")
     else:
         layout.prop(choice, "key", text="Polycube")
+
+
+def explain(context):
+    """Two lines that say what the buttons work on."""
+    choice, shape = context.scene.polycube, source.chosen(context)
+    if shape is None:
+        return "Select a closed mesh, or add an example:", "quads and hexahedra of few blocks follow it."
+    if choice.source == 'KEY':
+        return f"Meshes {shape.name},", f"with its shape key {choice.key} as the polycube."
+    if choice.polycube:
+        return f"Meshes {shape.name},", f"with {choice.polycube.name} as its polycube."
+    return f"Meshes {shape.name}, a closed surface.", "A polycube of it is made on the way."
 
 
 def draw_search(layout, options):

@@ -2,14 +2,13 @@
 """*Quad Remesh*: a quadrilateral mesh of the shape that follows the block structure."""
 
 import bpy
-import numpy as np
 import polycube
 
 from . import colours, curves, jobs, live, panel, results, settings, simplify, source, transfer
 
 
 class POLYCUBE_OT_quad_remesh(jobs.JobOperator, settings.SearchOptions, settings.ToleranceOptions, settings.MeshOptions,
-                              bpy.types.Operator):
+                              settings.MakeOptions, bpy.types.Operator):
     """Mesh the shape with quadrilaterals that follow the block structure, as a new object with the materials,
     vertex groups and UV maps of the shape. The original is kept"""
 
@@ -45,7 +44,7 @@ def remesh(options, context, read, surface_only, padding=1):
 def _structure(options, context, read):
     """The polycube to mesh with, and the arguments that make it so."""
     shown = live.current(context.scene.polycube) if options.blocks_from == 'SHOWN' else None
-    if shown is not None and shown[0].fingerprint == read.fingerprint and shown[1].polycube is not None:
+    if shown is not None and _same(shown[0], read) and shown[1].polycube is not None:
         # It lies on its lattice already, where rounding changes nothing.
         return shown[1].polycube, {"strategy": "naive", "labels": shown[1].labels, "scale": _scale(options)}
     locked = source.locked_cells(read, options, bpy.data.objects[read.holder])
@@ -53,7 +52,12 @@ def _structure(options, context, read):
     if arguments["simplicity"] == 1.0:
         # The fewest blocks, or more where those make bad hexahedra.
         arguments["simplicity"] = None
-    return read.polycube, arguments
+    return read.polycube, {"labels": read.labels, **arguments}
+
+
+def _same(one, other):
+    """Whether two sources have the same shape and polycube."""
+    return one.fingerprint == other.fingerprint and one.made is other.made
 
 
 def _scale(options):
@@ -65,7 +69,7 @@ def quad_object(context, read, meshes, what):
     shape = bpy.data.objects[read.shape_name or read.holder]
     quads = meshes.quads
     mesh = bpy.data.meshes.new(what)
-    set_quads(mesh, quads.points / read.shape_size, quads.cells)
+    results.set_faces(mesh, quads.points / read.shape_size, quads.cells)
     colours.write(
         mesh,
         block_id=quads.block_id,
@@ -74,17 +78,6 @@ def quad_object(context, read, meshes, what):
         scaled_jacobian=quads.scaled_jacobian,
     )
     return results.new_object(context, shape, f"{shape.name} {what}", mesh), shape
-
-
-def set_quads(mesh, points, cells):
-    """Fills an empty mesh with quadrilaterals."""
-    mesh.vertices.add(len(points))
-    mesh.vertices.foreach_set("co", points.astype(np.float32).ravel())
-    mesh.loops.add(cells.size)
-    mesh.loops.foreach_set("vertex_index", cells.astype(np.int32).ravel())
-    mesh.polygons.add(len(cells))
-    mesh.polygons.foreach_set("loop_start", np.arange(0, cells.size, 4, dtype=np.int32))
-    mesh.update(calc_edges=True)
 
 
 def finish(operator, context, read, objects, meshes):

@@ -6,7 +6,7 @@ import numpy as np
 import polycube
 
 from . import colours, faults
-from .source import visible
+from .source import ORIGIN, visible
 
 KEY_NAME = "Simplified"
 # The custom property that tells results from other objects.
@@ -17,6 +17,11 @@ def check_output(source, output):
     """Refuses, before the work begins, a result that could not be put where it is wanted."""
     if not _as_key(source, output):
         return
+    if source.plain:
+        raise faults.Refused(
+            "the result cannot be a shape key: a polycube that is made has vertices of its own",
+            "take a new object as the result, or press Make Polycube first",
+        )
     if not source.editable:
         raise faults.Refused(
             "the result cannot be a shape key: modifiers make other vertices than those of the mesh",
@@ -61,7 +66,7 @@ def update(context, source, simplified):
     if obj is None or simplified.polycube is None:
         return
     mesh = obj.data
-    points = (simplified.polycube.points / simplified.scale / source.size).astype(np.float32).ravel()
+    points = ((simplified.polycube.points / simplified.scale + source.offset) / source.size).astype(np.float32).ravel()
     if mesh.is_editmode or (3 * len(mesh.vertices), len(mesh.polygons)) != (len(points), source.polygon_count):
         settings.result.notes = f"{obj.name} is in edit mode or has other faces by now: leave edit mode, or simplify again"
         return
@@ -105,6 +110,10 @@ def _new_key(holder):
 
 
 def _new_object(context, holder, source):
+    if source.made:
+        mesh = bpy.data.meshes.new("Simplified")
+        set_faces(mesh, source.shape.points / source.size, source.shape.cells)
+        return new_object(context, holder, f"{holder.name} Simplified", mesh)
     with visible(context, holder):
         depsgraph = context.evaluated_depsgraph_get()
         evaluated = holder.evaluated_get(depsgraph)
@@ -112,12 +121,29 @@ def _new_object(context, holder, source):
     return new_object(context, holder, f"{holder.name} Simplified", mesh)
 
 
+def set_faces(mesh, points, cells):
+    """Fills an empty mesh with triangles or quadrilaterals."""
+    mesh.vertices.add(len(points))
+    mesh.vertices.foreach_set("co", points.astype(np.float32).ravel())
+    mesh.loops.add(cells.size)
+    mesh.loops.foreach_set("vertex_index", cells.astype(np.int32).ravel())
+    mesh.polygons.add(len(cells))
+    mesh.polygons.foreach_set("loop_start", np.arange(0, cells.size, cells.shape[1], dtype=np.int32))
+    mesh.update(calc_edges=True)
+
+
 def new_object(context, like, name, data):
+    """A new object for a result: it lies where `like` lies, in the same collections."""
+    obj = beside(context, like, name, data)
+    obj[MARK], obj[ORIGIN] = True, like
+    return obj
+
+
+def beside(context, like, name, data):
     """A new object that lies where `like` lies, in the same collections."""
     data.name = name
     obj = bpy.data.objects.new(name, data)
     for collection in like.users_collection or [context.scene.collection]:
         collection.objects.link(obj)
     obj.matrix_world = like.matrix_world
-    obj[MARK] = True
     return obj

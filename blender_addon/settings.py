@@ -159,6 +159,22 @@ class ToleranceOptions(Options):
         }
 
 
+class MakeOptions(Options):
+    """How a polycube is made where none is chosen."""
+
+    IS_GROUP = True
+
+    detail: FloatProperty(
+        name="Detail",
+        description="How closely a polycube that is made follows the shape, from 0, as few corners as can be, to 1",
+        min=0.0,
+        max=1.0,
+        default=0.5,
+        subtype='FACTOR',
+        options=FORGET,
+    )
+
+
 class SimplifyOptions(SearchOptions, ToleranceOptions):
     """How a polycube is simplified, and where the result goes."""
 
@@ -262,20 +278,23 @@ class Inputs:
         name="From",
         description="Where shape and polycube are",
         items=(
-            ('OBJECTS', "Objects", "Two objects with the same vertices and faces, one the shape and one its polycube"),
+            ('OBJECTS', "Objects", "One object, of which a polycube is made, or two with the same vertices and faces: "
+             "the shape and its polycube"),
             ('KEY', "Shape Key", "One object: its basis is the shape, a shape key is the polycube"),
         ),
         default='OBJECTS',
     )
     shape: PointerProperty(
         name="Shape",
-        description="The object to mesh. Its vertices and faces must be those of the polycube",
+        description="The object to mesh; the active one if none is chosen. Its vertices and faces must be those of the "
+        "polycube, if there is one",
         type=bpy.types.Object,
         poll=is_mesh,
     )
     polycube: PointerProperty(
         name="Polycube",
-        description="The shape deformed so that every face looks along an axis of this object",
+        description="The shape deformed so that every face looks along an axis of this object. One is made if none is "
+        "chosen",
         type=bpy.types.Object,
         poll=is_mesh,
     )
@@ -300,7 +319,7 @@ class Result(bpy.types.PropertyGroup):
     meshed: StringProperty()
 
 
-class PolycubeSettings(Inputs, SimplifyOptions, VolumeOptions, bpy.types.PropertyGroup):
+class PolycubeSettings(Inputs, MakeOptions, SimplifyOptions, VolumeOptions, bpy.types.PropertyGroup):
     """The panel's settings: `scene.polycube`."""
 
     simplicity: FloatProperty(**SIMPLICITY, update=live.slide)

@@ -7,19 +7,21 @@ import polycube
 from . import jobs, live, panel, results, settings, source
 
 
-class POLYCUBE_OT_simplify(jobs.JobOperator, settings.SimplifyOptions, bpy.types.Operator):
+class POLYCUBE_OT_simplify(jobs.JobOperator, settings.SimplifyOptions, settings.MakeOptions, bpy.types.Operator):
     """Move the facets of the polycube onto a lattice so that corners align and the solid falls into fewer blocks.
     Every corner, edge and facet is kept, and so is the original"""
 
     bl_idname = "polycube.simplify"
     bl_label = "Simplify"
 
-    def begin(self, context, read):
+    def admit(self, read):
+        super().admit(read)
         results.check_output(read, self.output)
-        step = self.lattice_step if self.lattice == 'STEP' else None
-        holder = bpy.data.objects[read.holder]
-        locked = source.locked_cells(read, self, holder)
-        return polycube.Job.simplify(read.polycube, read.shape, edge_length=step, **search_options(self, locked))
+
+    def begin(self, context, read):
+        locked = source.locked_cells(read, self, bpy.data.objects[read.holder])
+        given = {"labels": read.labels, "edge_length": self.lattice_step if self.lattice == 'STEP' else None}
+        return polycube.Job.simplify(read.polycube, read.shape, **given, **search_options(self, locked))
 
     def finish(self, context, read, found):
         results.place(context, read, found, self.output)

@@ -1,18 +1,25 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """From Blender's objects to the arrays that the core works on.
 
+Where no polycube is chosen, one is made of the shape: such a shape is called plain.
+
 Both meshes are taken as the viewport shows them: with modifiers, and with the scale of their objects. The axes that the
 faces of a polycube look along are those of its own object, so location and rotation do not matter.
 """
 
 import contextlib
 import hashlib
-from dataclasses import dataclass
+import math
+from dataclasses import dataclass, field
 
+import bpy
 import numpy as np
 import polycube
 
 from . import faults
+
+# The custom property of a result that names the object that it was made of.
+ORIGIN = "polycube_origin"
 
 
 @dataclass
@@ -49,8 +56,8 @@ class Source:
     """The name of the shape's object, where there is a shape."""
     key: str | None
     """The shape key that is the polycube; none where an object is."""
-    polycube: polycube.Mesh
-    """In scene units along the holder's axes."""
+    polycube: polycube.Mesh | None
+    """In scene units along the holder's axes; none for a plain shape whose polycube is yet to be made."""
     shape: polycube.Mesh | None
     """In scene units along the axes of the shape's object."""
     polygon_of_cell: np.ndarray
@@ -63,13 +70,52 @@ class Source:
     editable: bool
     """Whether vertices and polygons are those of the holder's mesh itself: no modifier makes others."""
     fingerprint: bytes
+    plain: bool = False
+    """Whether the polycube is made of the shape."""
+    made: polycube.Made | None = None
+    """What was made of a plain shape."""
+    offset: np.ndarray = field(default_factory=lambda: np.zeros(3))
+    """(3,) what to add to a polycube that was made so that it lies where the shape is, in scene units."""
+
+    @property
+    def labels(self):
+        """The labels that go with the polycube; by the normals if none."""
+        return self.made.labels if self.made else None
+
+    def take(self, made):
+        """Goes on with the polycube that was made of this plain shape."""
+        self.made, self.shape = made, made.shape
+        cube = made.polycube
+        # As large as the shape, by a power of two, so that nothing is rounded.
+        step = 2.0 ** round(math.log2(_diagonal(made.shape.points) / _diagonal(cube.points)))
+        self.polycube = _mesh(cube.points * step, cube.cells)
+        self.offset = _middle(made.shape.points) - _middle(self.polycube.points)
+        # Its triangles are none of the object's faces.
+        self.editable, self.polygon_count = False, len(cube.cells)
+        self.polygon_of_cell = np.arange(self.polygon_count)
 
     def unchanged(self, context):
         """Whether the objects still are what they were when this was read."""
         try:
-            return read(context).fingerprint == self.fingerprint
+            # Another object may be active by now.
+            again = read_plain(context, bpy.data.objects.get(self.holder)) if self.plain else read(context)
+            return again.fingerprint == self.fingerprint
         except faults.Refused:
             return False
+
+
+def chosen(context):
+    """The object that would be meshed, or None: what the panel names, else the active object. Of a result, the object
+    that it was made of."""
+    settings = context.scene.polycube
+    if settings.source == 'KEY':
+        return settings.shape
+    if settings.polycube or settings.shape:
+        return settings.shape or settings.polycube
+    active = context.view_layer.objects.active
+    while active is not None and active.get(ORIGIN):
+        active = active[ORIGIN]
+    return active if active is not None and active.type == 'MESH' else None
 
 
 def read(context):
@@ -80,13 +126,23 @@ def read(context):
     settings = context.scene.polycube
     if settings.source == 'KEY':
         return _read_key(context, settings)
+    if settings.polycube is None:
+        return read_plain(context, chosen(context))
     return _read_objects(context, settings)
+
+
+def read_plain(context, shape):
+    """An object whose polycube is to be made."""
+    if shape is None:
+        raise faults.Refused("there is no shape", "select a mesh object, or choose one in the panel")
+    own, body = _surface(context, shape, None), _shown(context, shape, None)
+    found = _source(shape, None, body, shape, body, body.same_faces(own))
+    found.plain, found.polycube = True, None
+    return found
 
 
 def _read_objects(context, settings):
     holder, shape = settings.polycube, settings.shape
-    if holder is None:
-        raise faults.Refused("there is no polycube", "choose an object as Polycube in the panel, or add an example")
     own, cube = _surface(context, holder, None), _shown(context, holder, None)
     body = None if shape is None or shape == holder else _shown(context, shape, None)
     if body is not None and not cube.same_faces(body):
@@ -102,7 +158,10 @@ def _read_key(context, settings):
     key = keys.key_blocks.get(settings.key) if keys else None
     if key is None or key == keys.reference_key:
         name = settings.key or "its name"
-        raise faults.Refused(f"{holder.name} has no shape key {name!r} besides its basis", "choose the polycube's key")
+        raise faults.Refused(
+            f"{holder.name} has no shape key {name!r} besides its basis",
+            "choose the polycube's key, or Objects without a polycube, to have one made"
+        )
     own, body = _surface(context, holder, 0), _shown(context, holder, 0)
     index = keys.key_blocks.find(key.name)
     # Modifiers that keep the faces deform the shape only; the polycube is the key as it is stored.
@@ -149,6 +208,14 @@ def _source(holder, key, cube, shape, body, editable):
 
 def _mesh(points, cells):
     return polycube.Mesh(points, cells, kind="quads" if cells.shape[1] == 4 else "triangles")
+
+
+def _diagonal(points):
+    return float(np.linalg.norm(np.ptp(points, axis=0)))
+
+
+def _middle(points):
+    return 0.5 * (points.min(axis=0) + points.max(axis=0))
 
 
 def _scale(obj):
@@ -243,6 +310,10 @@ def locked_cells(source, settings, obj):
     """The cells whose facets may not move, or none. `settings` are the options of the operator."""
     if settings.locks == 'NONE':
         return None
+    if source.plain:
+        raise faults.Refused(
+            "faces cannot be locked before there is a polycube", "press Make Polycube, and choose faces of what it adds"
+        )
     if not source.editable:
         raise faults.Refused(
             "faces cannot be locked: modifiers make other ones than those of the mesh", "apply the modifiers first"

@@ -9,7 +9,7 @@ import bpy
 import polycube
 import pytest
 
-OPERATORS = ("check", "simplify", "quad_remesh", "show_layout", "export_hexes", "add_example")
+OPERATORS = ("check", "make", "simplify", "quad_remesh", "show_layout", "export_hexes", "add_example")
 
 
 def test_the_module_is_the_one_in_the_zip():
@@ -35,7 +35,7 @@ def test_every_setting_has_a_tooltip(settings):
 
 
 def test_operators_can_be_undone_and_repeated(extension):
-    for module, name in (("check", "check"), ("simplify", "simplify"), ("quads", "quad_remesh"),
+    for module, name in (("check", "check"), ("make", "make"), ("simplify", "simplify"), ("quads", "quad_remesh"),
                          ("layout", "show_layout"), ("examples", "add_example")):
         cls = getattr(importlib.import_module(f"{extension}.{module}"), f"POLYCUBE_OT_{name}")
         assert {'REGISTER', 'UNDO'} <= cls.bl_options

@@ -137,11 +137,10 @@ def test_an_empty_mesh(settings):
 
 
 def test_nothing_chosen(settings):
-    with pytest.raises(RuntimeError, match="There is no polycube"):
-        ops.check()
-    settings.source = 'KEY'
-    with pytest.raises(RuntimeError, match="There is no object"):
-        ops.simplify()
+    for source in ('OBJECTS', 'KEY'):
+        settings.source = source
+        with pytest.raises(RuntimeError, match="Select a mesh object"):
+            ops.simplify()
     settings.shape = add("Plain", *solid())
     with pytest.raises(RuntimeError, match="no shape key 'Polycube'"):
         ops.simplify()
