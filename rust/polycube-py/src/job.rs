@@ -44,7 +44,7 @@ macro_rules! any {
 impl PyJob {
     /// Starts `polycube.make` with these arguments, of which mistakes are raised at once.
     #[staticmethod]
-    #[pyo3(signature = (shape, **options), text_signature = "(shape, *, detail=0.5, corners=None)")]
+    #[pyo3(signature = (shape, **options), text_signature = "(shape, *, detail=None, corners=None, labels=None)")]
     fn make(py: Python<'_>, shape: &PyMesh, options: Option<&Bound<'_, PyDict>>) -> PyResult<Self> {
         Ok(Self(Kind::Make(work::start(py, made::task(py, shape, options)?)?)))
     }

@@ -7,7 +7,7 @@ use crate::report::to_dict;
 use crate::simplified::Source;
 use crate::work::{Failure, Listener};
 use polycube::Context;
-use polycube::make::{Made, MakeOptions, MakeReport, make as run};
+use polycube::make::{Made, MakeOptions, MakeReport, from_labels, make as run};
 use polycube::mesh::Mesh;
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
@@ -81,6 +81,36 @@ impl PyMade {
     }
 }
 
+/// What a polycube is made by.
+pub enum Making {
+    /// A search for its structure.
+    Search(MakeOptions),
+    /// Labels of the shape's faces.
+    Labels(Vec<i8>),
+}
+
+impl Making {
+    /// The arguments that say how a polycube is made.
+    pub fn new(keywords: &Keywords<'_>) -> PyResult<Self> {
+        let Some(labels) = keywords.labels()? else { return Ok(Self::Search(keywords.make()?)) };
+        keywords.refuse(
+            &["detail", "corners"],
+            "the labels say which facets there are",
+            "leave it out, or the labels",
+        )?;
+        Ok(Self::Labels(labels))
+    }
+
+    /// Makes a polycube of `shape`; the place of an error is one on it.
+    pub fn make(&self, shape: &Mesh, context: &Context) -> Result<PyMade, Failure> {
+        let made = match self {
+            Self::Search(options) => run(shape, options, context),
+            Self::Labels(labels) => from_labels(shape, labels, context),
+        };
+        made.map(PyMade::from).map_err(|e| Failure::new(e, shape))
+    }
+}
+
 /// Makes a polycube of a shape: a closed surface of triangles or quadrilaterals, of any genus and any number of parts.
 ///
 /// The polycube is valid and does not touch itself, or an error says at which face and why not. Where its map is folded
@@ -89,13 +119,17 @@ impl PyMade {
 ///
 /// Args:
 ///     shape: the surface.
-///     detail: how closely the polycube follows the shape, from 0, as few corners as can be, to 1.
+///     detail: how closely the polycube follows the shape, from 0, as few corners as can be, to 1. 0.5 if not given.
 ///     corners: take corners away until no more than these are left, as far as the shape allows, whatever detail says.
+///     labels: (f,) 0 to 5 for each face of the shape, as programs that label shapes leave them. Its charts become the
+///         facets as they are, and detail and corners have no effect.
 ///     progress, cancel: as in `simplify`.
 ///
 /// Raises:
 ///     InvalidMesh: the surface is not closed, oriented and manifold.
-///     InvalidPolycube: no structure was found, or parts of the polycube could not be kept apart.
+///     InvalidPolycube: no structure was found, the labels are not those of a polycube, or parts of the polycube could
+///         not be kept apart.
+///     Mismatch: the labels do not fit the faces.
 ///     Unsupported: the mesh is a volume.
 ///     InvalidOption: an option is out of its range.
 ///     Cancelled: `cancel` was set.
@@ -109,7 +143,7 @@ impl PyMade {
 #[pyfunction]
 #[pyo3(
     signature = (shape, *, progress=None, cancel=None, **options),
-    text_signature = "(shape, *, detail=0.5, corners=None, progress=None, cancel=None)"
+    text_signature = "(shape, *, detail=None, corners=None, labels=None, progress=None, cancel=None)"
 )]
 pub fn make<'py>(
     py: Python<'py>,
@@ -129,13 +163,8 @@ pub fn task(
     options: Option<&Bound<'_, PyDict>>,
 ) -> PyResult<impl FnOnce(&Context) -> Result<PyMade, Failure> + Send + 'static> {
     let keywords = Keywords::new(py, "make", options)?;
-    let options = keywords.make()?;
+    let making = Making::new(&keywords)?;
     keywords.finish()?;
     let shape = Arc::clone(&shape.0);
-    Ok(move |context: &Context| make_of(&shape, &options, context))
-}
-
-/// Makes a polycube of `shape`; the place of an error is one on it.
-pub fn make_of(shape: &Mesh, options: &MakeOptions, context: &Context) -> Result<PyMade, Failure> {
-    run(shape, options, context).map(PyMade::from).map_err(|e| Failure::new(e, shape))
+    Ok(move |context: &Context| making.make(&shape, context))
 }

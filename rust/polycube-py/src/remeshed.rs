@@ -2,7 +2,7 @@
 
 use crate::hexes::PyHexes;
 use crate::layout::PyLayout;
-use crate::made::{self, PyMade};
+use crate::made::{Making, PyMade};
 use crate::mesh::PyMesh;
 use crate::options::Keywords;
 use crate::quads::PyQuads;
@@ -10,7 +10,6 @@ use crate::report::to_dict;
 use crate::simplified::{PySimplified, Source};
 use crate::work::{Failure, Listener};
 use polycube::Context;
-use polycube::make::MakeOptions;
 use polycube::mesh::Mesh;
 use polycube::remesh::{RemeshOptions, RemeshReport, Remeshed, remesh as run};
 use pyo3::prelude::*;
@@ -111,7 +110,7 @@ enum Start {
     /// A shape and its polycube.
     Pair(Source),
     /// A shape of which a polycube is to be made.
-    Shape(Arc<Mesh>, MakeOptions),
+    Shape(Arc<Mesh>, Making),
 }
 
 impl Start {
@@ -120,15 +119,14 @@ impl Start {
             keywords.refuse(&["detail", "corners"], "a polycube is given", "leave it out, or the polycube")?;
             return Ok(Self::Pair(Source::new(polycube, Some(shape), keywords)?));
         }
-        keywords.refuse(&["labels"], "no polycube is given, whose labels they would be", "give the polycube, too")?;
-        Ok(Self::Shape(Arc::clone(&shape.0), keywords.make()?))
+        Ok(Self::Shape(Arc::clone(&shape.0), Making::new(keywords)?))
     }
 
     fn remesh(self, options: &RemeshOptions, context: &Context) -> Result<PyRemeshed, Failure> {
         let (source, made, from) = match self {
             Self::Pair(source) => (source, None, 0.0),
-            Self::Shape(shape, wanted) => {
-                let made = made::make_of(&shape, &wanted, &context.stage("make", 0.0, MAKING))?;
+            Self::Shape(shape, making) => {
+                let made = making.make(&shape, &context.stage("make", 0.0, MAKING))?;
                 (made.source(), Some(made), MAKING)
             }
         };
@@ -152,8 +150,8 @@ impl Start {
 ///         same cells: a surface or a volume.
 ///     polycube: the mesh whose boundary faces look along the axes. One is made, as `make` does, if none is given.
 ///     detail, corners: only where a polycube is made, as in `make`.
-///     labels: only with a polycube, (f,) 0 to 5 for each of its boundary faces, -1 for "by the normal". By the normals
-///         if not given.
+///     labels: (f,) 0 to 5 for each boundary face of the polycube, -1 for "by the normal". By the normals if not given.
+///         Without a polycube, those of the shape, whose charts become the facets, as in `make`.
 ///     hexes: about how many hexahedra there shall be, padding included. This, edge_length or scale.
 ///     edge_length: mean length of the mesh's edges, in units of the shape.
 ///     scale: lattice steps per unit of the polycube. 1 if its levels are integers, else one step per mean mesh edge.

@@ -120,6 +120,27 @@ def test_options_of_making_have_no_effect_with_a_polycube(surfaces, option):
         polycube.remesh(*surfaces, **option)
 
 
-def test_labels_need_the_polycube(shape):
-    with pytest.raises(polycube.InvalidOption, match="labels"):
-        polycube.remesh(shape, labels=np.zeros(len(shape.cells), int))
+def test_a_labelled_shape_gets_the_polycube_of_its_labels():
+    shape, cube = polycube.example("ring", kind="quads")
+    own = polycube.structure(cube)
+    made = polycube.make(shape, labels=own.label)
+    assert made.good
+    assert polycube.check(made.polycube, made.labels, shape=made.shape) == []
+    found = polycube.structure(made.polycube, made.labels)
+    assert np.array_equal(np.sort(found.facet_label), np.sort(own.facet_label))
+    assert (len(found.corners), len(found.edges)) == (len(own.corners), len(own.edges))
+    meshes = polycube.remesh(shape, labels=own.label, scale=0.05)
+    assert np.array_equal(meshes.made.polycube.points, made.polycube.points)
+
+
+def test_labels_that_are_no_polycube_are_refused_with_their_place(surfaces):
+    shape, cube = surfaces
+    labels = polycube.structure(cube).label.copy()
+    labels[labels == 0] = 3
+    with pytest.raises(polycube.InvalidPolycube, match="opposite") as caught:
+        polycube.make(shape, labels=labels)
+    assert caught.value.element == "edge" and caught.value.place is not None
+    with pytest.raises(polycube.Mismatch):
+        polycube.make(shape, labels=labels[1:])
+    with pytest.raises(polycube.InvalidOption, match="detail"):
+        polycube.make(shape, labels=labels, detail=0.5)

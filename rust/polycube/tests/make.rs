@@ -5,7 +5,7 @@ mod common;
 use common::{cases, coarse, data, dense};
 use nalgebra::Matrix2;
 use polycube::generate::{Cuboid, Example, Voxels, example, random_polycube};
-use polycube::make::{Made, MakeOptions, make};
+use polycube::make::{Made, MakeOptions, from_labels, make};
 use polycube::mesh::{CellKind, Cells, Mesh, Point, Simplices, read, write_bytes};
 use polycube::structure::{Polycube, Tolerance};
 use polycube::{Context, ErrorKind, Place};
@@ -176,6 +176,99 @@ fn what_is_no_closed_surface_is_refused_with_its_place() {
     assert_eq!(refused(&volume).kind, ErrorKind::Unsupported);
     let options = MakeOptions { detail: f64::NAN, corners: None };
     assert_eq!(make(&shape, &options, &Context::default()).unwrap_err().option, Some("detail"));
+}
+
+/// The polycube of a labelled shape.
+fn labelled(shape: &Mesh, labels: &[i8]) -> polycube::Result<Made> {
+    from_labels(shape, labels, &Context::default())
+}
+
+#[test]
+fn labels_of_random_polycubes_get_polycubes_of_the_same_structure() {
+    let count = cases(40);
+    let (mut embedded, mut folded) = (0, 0_u64);
+    for seed in 0..count {
+        let voxels = random_polycube(seed, 1 + seed as usize % 6, 4 + seed as i64 % 5).unwrap();
+        let cube = coarse(&voxels, CellKind::Triangles);
+        let own = common::read(&cube);
+        let (shape, labels, what) = (bent(&cube), common::labels(&own), format!("seed {seed}"));
+        match labelled(&shape, &labels) {
+            Ok(made) => {
+                assert_good(&shape, &made, &what);
+                let found = Polycube::new(&made.polycube, Some(&made.labels), &Tolerance::default()).unwrap();
+                let sizes =
+                    |p: &Polycube| (p.structure.corners.len(), p.structure.edges.len(), p.structure.facets.len());
+                assert_eq!(sizes(&found), sizes(&own), "{what}");
+                let convex = |p: &Polycube| p.structure.edges.iter().filter(|e| p.structure.is_convex(e)).count();
+                assert_eq!(convex(&found), convex(&own), "{what}");
+                embedded += 1;
+                folded += u64::from(!made.report.folded.is_empty());
+            }
+            Err(e) => {
+                assert!(e.kind == ErrorKind::Polycube && e.place.is_some() && !e.remedy.is_empty(), "{what}: {e}")
+            }
+        }
+    }
+    println!("{embedded} of {count} embedded, {folded} folded");
+    assert!(20 * embedded >= 19 * count, "{embedded} of {count}");
+    assert!(10 * folded <= count, "{folded} of {count} folded");
+}
+
+/// A bar along X, with the label of each of its faces, and its points moved.
+fn bar(moved: impl Fn(&Point) -> Point) -> (Mesh, Vec<i8>) {
+    let voxels = Voxels::from_boxes(&[Cuboid { min: [0, 0, 0], max: [12, 2, 2] }]).expect("a box");
+    let cube = voxels.mesh(CellKind::Quads, 1.0).expect("a mesh");
+    (cube.moved(moved).expect("finite points"), common::labels(&common::read(&cube)))
+}
+
+/// Bent once around, both ends of the bar lie side by side: how far edges lead along X says nothing, and where the bar
+/// is bent farther, the opposite.
+#[test]
+fn edges_run_as_the_dihedral_angles_say_where_their_ends_do_not_tell() {
+    for angle in [0.0, 180.0, 270.0, 330.0_f64] {
+        let curl = |p: &Point| {
+            let (radius, turn) = (6.0 - p.y, angle.to_radians() * p.x / 12.0);
+            Point::new(radius * turn.sin(), -radius * turn.cos(), p.z + 0.3 * p.x)
+        };
+        let (shape, labels) = bar(|p| if angle == 0.0 { *p } else { curl(p) });
+        let made = labelled(&shape, &labels).unwrap_or_else(|e| panic!("{angle} degrees: {e}"));
+        assert_good(&made.shape, &made, "bar");
+        assert_eq!((made.report.corners, made.report.facets), (8, 6), "{angle} degrees");
+        assert_eq!(made.report.folded, [0; 0], "{angle} degrees");
+    }
+}
+
+#[test]
+fn labels_that_are_no_polycube_are_refused_with_their_place() {
+    let (shape, labels) = bar(|p| *p);
+    let faces = shape.cells().boundary().unwrap();
+    let middle = |face: usize| faces[face].vertices().iter().map(|&v| shape.points()[v as usize].x).sum::<f64>() / 4.0;
+    let told = |change: &dyn Fn(usize, i8) -> i8| {
+        let changed: Vec<i8> = labels.iter().enumerate().map(|(face, &l)| change(face, l)).collect();
+        let error = labelled(&shape, &changed).unwrap_err();
+        assert!(!error.remedy.is_empty(), "{error}");
+        (error.kind, error.place)
+    };
+    // +Y beside -Y: the edges between lie in one plane.
+    let (kind, place) = told(&|face, l| if l == 2 && middle(face) < 6.0 { 3 } else { l });
+    assert!(
+        kind == ErrorKind::Polycube
+            && matches!(place, Some(Place::Edge(a, b)) if [a, b].iter().all(|&v| {
+                let p = shape.points()[v as usize];
+                p.y == 2.0 && p.x <= 6.0
+            })),
+        "{place:?}"
+    );
+    // A chart of one face inside another has corners without the third axis.
+    let face = (0..faces.len()).find(|&f| labels[f] == 4 && (5.0..6.0).contains(&middle(f))).unwrap();
+    let (kind, place) = told(&|f, l| if f == face { 2 } else { l });
+    assert!(kind == ErrorKind::Polycube && place.is_some(), "{place:?}");
+    // All faces alike: a chart without border.
+    assert!(matches!(told(&|_, _| 0), (ErrorKind::Polycube, Some(Place::Face(_)))));
+    // Seen in a mirror every border turns the wrong way.
+    assert!(matches!(told(&|_, l| if l < 2 { 1 - l } else { l }), (ErrorKind::Polycube, Some(Place::Face(_)))));
+    assert_eq!(told(&|f, l| if f == 7 { -1 } else { l }), (ErrorKind::Mismatch, Some(Place::Face(7))));
+    assert_eq!(labelled(&shape, &labels[1..]).unwrap_err().kind, ErrorKind::Mismatch);
 }
 
 /// The folder of plain shapes, beside that of the real polycubes.

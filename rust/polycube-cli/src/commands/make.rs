@@ -1,18 +1,20 @@
 //! `polycube make`.
 
 use crate::failure::{Failure, INFERIOR, Result};
+use crate::input::meshes::{made, read_labels};
 use crate::options::format::format;
 use crate::options::make::MakeArgs;
+use crate::options::polycube::LabelsArg;
 use crate::options::run::{FolderArg, QuietArg};
 use crate::output::folder::{LABELS, Output, REPORT};
 use crate::output::progress::Progress;
 use crate::output::report::MakeRun;
 use crate::output::terminal;
 use clap::ValueHint;
-use polycube::make::{Made, make};
+use polycube::make::Made;
 use polycube::mesh::{self, CellKind, Format};
 use polycube::{Context, Error, ErrorKind};
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 
 const NOTES: &str = "\
@@ -26,11 +28,17 @@ They appear together when all is done, or not at all. Then
   polycube remesh out/shape.EXT --polycube out/polycube.EXT --labels out/polycube.labels -o mesh
 meshes the shape. SHAPE is a closed surface of triangles or quadrilaterals, of any genus and any
 number of parts. The axes are those of the file: turn the shape to have another polycube.
+With --labels, for shapes that another program has labelled, the charts are those of the labels, and
+they are only put in place; an error says where labels are not those of a polycube.
 Exit code 4: the files are written, but the map is folded in places, which report.json lists.";
 
 /// The shape and what is wanted.
 #[derive(clap::Args, Clone, Debug)]
-#[command(after_help = NOTES)]
+#[command(
+    after_help = NOTES,
+    mut_arg("detail", |detail| detail.conflicts_with("labels")),
+    mut_arg("corners", |corners| corners.conflicts_with("labels"))
+)]
 pub struct Args {
     /// The shape: a mesh file of a closed surface
     #[arg(value_name = "SHAPE", value_hint = ValueHint::FilePath)]
@@ -43,6 +51,10 @@ pub struct Args {
     /// How closely the polycube follows the shape.
     #[command(flatten)]
     pub make: MakeArgs,
+
+    /// Labels of the shape, whose charts become the facets.
+    #[command(flatten)]
+    pub labels: LabelsArg,
 
     /// Format of shape and polycube: obj, off, ply, stl, mesh, vtk or vtu [default: as the input]
     #[arg(long, value_name = "EXT", value_parser = format)]
@@ -87,7 +99,10 @@ fn work(args: &Args, context: &Context) -> Result<Made> {
         return Err(Error::new(ErrorKind::Option, format!("a .{format} file cannot hold triangles")).into());
     }
     let about = Failure::in_file(&args.shape);
-    let made = make(&shape, &args.make.get(), &context.stage("make", 0.05, 0.95)).map_err(about)?;
+    let middle = context.stage("make", 0.05, 0.95);
+    shape.cells().boundary().map_err(&about)?;
+    let labels = read_labels(args.labels.given(), &args.shape, &shape)?;
+    let made = made(&shape, labels.as_deref(), &args.make.get(), &middle).map_err(&about)?;
     write(args, &made, format, &context.stage("write", 0.95, 1.0))?;
     Ok(made)
 }
@@ -100,8 +115,15 @@ fn write(args: &Args, made: &Made, format: Format, context: &Context) -> Result<
     }
     let labels: String = made.labels.iter().map(|l| format!("{l}\n")).collect();
     output.add(LABELS, labels.as_bytes())?;
-    let run = MakeRun { input: &args.shape.display().to_string(), options: args.make.get(), report: &made.report };
+    let name = |path: &PathBuf| path.display().to_string();
+    let run = MakeRun {
+        input: &name(&args.shape),
+        labels: args.labels.file.as_ref().map(name),
+        options: args.labels.file.is_none().then(|| args.make.get()),
+        report: &made.report,
+    };
     output.add(REPORT, terminal::to_json(&run)?.as_bytes())?;
+    let inputs: Vec<&Path> = std::iter::once(&args.shape).chain(&args.labels.file).map(PathBuf::as_path).collect();
     let stale = output.meshes_left(&[("shape", &CellKind::ALL), ("polycube", &CellKind::ALL)]);
-    Ok(output.publish(&stale, &[args.shape.as_path()], context)?)
+    Ok(output.publish(&stale, &inputs, context)?)
 }

@@ -25,8 +25,10 @@ pub struct Files {
 pub struct MakeRun<'a> {
     /// The shape, as it was named.
     pub input: &'a str,
-    /// How the polycube was made.
-    pub options: MakeOptions,
+    /// The label file of the shape.
+    pub labels: Option<String>,
+    /// How the polycube was made; nothing where labels said how.
+    pub options: Option<MakeOptions>,
     /// What came out.
     #[serde(flatten)]
     pub report: &'a MakeReport,

@@ -3,6 +3,8 @@
 use super::Sandbox;
 use polycube::generate::{Example, example};
 use polycube::mesh::{self, CellKind};
+use polycube::structure::{Polycube, Tolerance};
+use serde_json::json;
 
 /// A sandbox with a plain shape named `shape.obj`.
 fn sandbox() -> Sandbox {
@@ -22,7 +24,7 @@ fn what_is_made_is_valid_and_can_be_meshed() {
     let [shape, cube] = ["shape", "polycube"].map(|f| mesh::read(&sandbox.path(&format!("out/{f}.obj"))).unwrap());
     assert_eq!(shape.cells(), cube.cells());
     let report = sandbox.json("out/report.json");
-    assert_eq!((report["genus"].as_u64(), &report["folded"]), (Some(1), &serde_json::json!([])));
+    assert_eq!((report["genus"].as_u64(), &report["folded"]), (Some(1), &json!([])));
     sandbox.ok("simplify out/polycube.obj --labels out/polycube.labels --shape out/shape.obj -o simple -q");
 }
 
@@ -37,12 +39,45 @@ fn a_shape_alone_is_meshed() {
 }
 
 #[test]
+fn a_labelled_shape_gets_the_polycube_of_its_labels() {
+    let sandbox = Sandbox::new();
+    let (cube, shape) = example(Example::Ring, 1, CellKind::Quads).unwrap();
+    sandbox.write_mesh("shape.obj", &shape);
+    let found = Polycube::new(&cube, None, &Tolerance::default()).unwrap();
+    let text = |labels: &[usize]| labels.iter().map(|l| format!("{l}\n")).collect::<String>();
+    let labels: Vec<usize> = found.labels().map(|l| l.index()).collect();
+    sandbox.write("shape.labels", &text(&labels));
+    sandbox.ok("make shape.obj --labels shape.labels -o out");
+    let words = ["labelled shape", "polycube make"];
+    for command in ["inspect", "simplify -o no"] {
+        sandbox.fails(&format!("{command} shape.obj --labels shape.labels"), 3, &words);
+    }
+    let run = sandbox.run("validate shape.obj --labels shape.labels");
+    assert!(run.code == 3 && words.iter().all(|word| run.out.contains(word)), "{}", run.out);
+    let report = sandbox.json("out/report.json");
+    assert_eq!(report["facets"].as_u64(), Some(found.structure.facets.len() as u64));
+    assert_eq!((&report["labels"], &report["options"]), (&json!("shape.labels"), &json!(null)));
+    assert_eq!(report["folded"], json!([]));
+    sandbox.ok("validate out/polycube.obj --labels out/polycube.labels --shape out/shape.obj");
+    // 4: so coarse a mesh may be far from the shape.
+    let run = sandbox.run("remesh shape.obj --labels shape.labels -o mesh --hexes 1500 -q");
+    assert!([0, 4].contains(&run.code), "{}", run.err);
+    assert_eq!(sandbox.json("mesh/report.json")["inverted"].as_u64(), Some(0));
+
+    let opposite: Vec<usize> = labels.iter().map(|&l| if l == 2 { 1 } else { l }).collect();
+    sandbox.write("wrong.labels", &text(&opposite));
+    sandbox.fails("make shape.obj --labels wrong.labels -o no", 3, &["shape.obj", "edge", "opposite label"]);
+    sandbox.fails("make shape.obj --labels shape.labels --corners 8 -o no", 2, &["--corners"]);
+    assert!(!sandbox.path("no").exists());
+}
+
+#[test]
 fn options_of_making_and_of_a_polycube_exclude_each_other() {
     let sandbox = sandbox();
     for (arguments, word) in [
         ("--polycube shape.obj --detail 0.3", "--detail"),
         ("--polycube shape.obj --corners 9", "--corners"),
-        ("--labels x.labels", "--polycube"),
+        ("--labels x.labels --detail 0.3", "--detail"),
         ("--detail 1.5", "from 0 to 1"),
     ] {
         sandbox.fails(&format!("remesh shape.obj -o out {arguments}"), 2, &[word]);

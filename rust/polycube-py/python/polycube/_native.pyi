@@ -287,7 +287,9 @@ class Remeshed:
 class Job(Generic[_T_co]):
     def __class_getitem__(cls, item: Any) -> GenericAlias: ...
     @staticmethod
-    def make(shape: Mesh, *, detail: float = 0.5, corners: int | None = None) -> Job[Made]: ...
+    def make(
+        shape: Mesh, *, detail: float | None = None, corners: int | None = None, labels: npt.ArrayLike | None = None
+    ) -> Job[Made]: ...
     @staticmethod
     def simplify(
         polycube: Mesh,
@@ -373,8 +375,9 @@ def structure(
 def make(
     shape: Mesh,
     *,
-    detail: float = 0.5,
+    detail: float | None = None,
     corners: int | None = None,
+    labels: npt.ArrayLike | None = None,
     progress: _Progress | None = None,
     cancel: _Flag | None = None,
 ) -> Made: ...

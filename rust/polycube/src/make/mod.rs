@@ -6,6 +6,7 @@
 
 mod charts;
 mod embedding;
+mod labelled;
 mod loops;
 mod report;
 
@@ -13,10 +14,10 @@ pub use report::{MakeReport, MakeSeconds};
 
 use crate::context::Context;
 use crate::error::{Error, ErrorKind, Result};
-use crate::mesh::{Cells, Face, Mesh};
+use crate::mesh::{Face, Mesh};
 use crate::structure::Surface;
 use charts::ChartedSurface;
-use embedding::Embedded;
+use embedding::{Embedded, Levels};
 use loops::{Candidate, LoopOptions};
 use std::time::Instant;
 
@@ -97,7 +98,7 @@ pub struct Made {
 pub fn make(shape: &Mesh, options: &MakeOptions, context: &Context) -> Result<Made> {
     options.check()?;
     let clock = Instant::now();
-    let triangles = triangles(shape)?;
+    let triangles: Vec<[u32; 3]> = surface(shape)?.faces().iter().flat_map(Face::triangles).collect();
     let mut seconds = MakeSeconds::default();
     let candidates = draw(shape, &triangles, options, &context.stage("loops", 0.0, 0.5))?;
     seconds.structure = clock.elapsed().as_secs_f64();
@@ -105,6 +106,39 @@ pub fn make(shape: &Mesh, options: &MakeOptions, context: &Context) -> Result<Ma
     seconds.total = clock.elapsed().as_secs_f64();
     seconds.embedding = seconds.total - seconds.structure;
     finish(shape, embedded, seconds)
+}
+
+/// Makes the polycube that the labels of a surface stand for, 0 to 5 for +X −X +Y −Y +Z −Z for each face: what programs
+/// that label shapes leave to be done. The charts stay as they are; their facets are put apart from each other on
+/// integer levels, and the charts laid flat in them. Labels do not say whether edges run up or down: the shape tells.
+/// Same input, same bytes.
+///
+/// ```
+/// use polycube::Context;
+/// use polycube::generate::{Example, example};
+/// use polycube::make::from_labels;
+/// use polycube::mesh::CellKind;
+/// use polycube::structure::{Polycube, Tolerance};
+///
+/// let (cube, shape) = example(Example::Ring, 1, CellKind::Triangles)?;
+/// let own = Polycube::new(&cube, None, &Tolerance::default()).expect("a polycube");
+/// let labels: Vec<i8> = own.labels().map(|l| l.index() as i8).collect();
+/// let made = from_labels(&shape, &labels, &Context::default())?;
+/// assert_eq!(made.report.facets, own.structure.facets.len());
+/// # Ok::<(), polycube::Error>(())
+/// ```
+///
+/// # Errors
+/// As [`make()`]; [`ErrorKind::Mismatch`] for labels that do not fit the faces, and [`ErrorKind::Polycube`] with the
+/// vertex, edge or face where the labels are not those of a polycube.
+pub fn from_labels(shape: &Mesh, labels: &[i8], context: &Context) -> Result<Made> {
+    let clock = Instant::now();
+    context.tick(0.0)?;
+    let (charts, levels) = labelled::read(shape, surface(shape)?, labels)?;
+    let structure = clock.elapsed().as_secs_f64();
+    let embedded = embedding::embed(&charts, levels, &context.stage("embed", 0.1, 1.0))?;
+    let total = clock.elapsed().as_secs_f64();
+    finish(shape, embedded, MakeSeconds { structure, embedding: total - structure, total })
 }
 
 /// Sets of loops and the charts that they stand for, cheapest first: by what their labels cost and how many corners
@@ -127,7 +161,8 @@ fn embed_best(candidates: &[Candidate<ChartedSurface>], context: &Context) -> Re
     let (mut folded, mut refused): (Vec<Embedded>, Option<Error>) = (Vec::new(), None);
     for (i, candidate) in candidates.iter().enumerate() {
         let [from, to] = [i, i + 1].map(|k| k as f64 / candidates.len() as f64);
-        match embedding::embed(&candidate.drawn, &candidate.loops, &context.stage("embed", from, to)) {
+        let levels = Levels::new(&candidate.drawn, &candidate.loops);
+        match embedding::embed(&candidate.drawn, levels, &context.stage("embed", from, to)) {
             Ok(found) if found.polycube.structure.corners.len() != candidate.loops.corners => {
                 return Err(Error::new(ErrorKind::Internal, "the polycube has other corners than its loops"));
             }
@@ -151,18 +186,11 @@ fn finish(shape: &Mesh, embedded: Embedded, seconds: MakeSeconds) -> Result<Made
     Ok(Made { shape: refined, polycube, labels, report })
 }
 
-/// The triangles of a closed surface.
-fn triangles(shape: &Mesh) -> Result<Vec<[u32; 3]>> {
+/// The faces of a closed surface.
+fn surface(shape: &Mesh) -> Result<Surface> {
     if shape.cells().is_volume() {
         let message = format!("a polycube is made of a surface, and this mesh has {}", shape.cells().kind());
         return Err(Error::new(ErrorKind::Unsupported, message).remedy("give the boundary of the mesh, as triangles"));
     }
-    let faces: Vec<Face> = match shape.cells() {
-        Cells::Triangles(t) => t.iter().map(|&t| Face::Triangle(t)).collect(),
-        Cells::Quads(q) => q.iter().map(|&q| Face::Quad(q)).collect(),
-        _ => Vec::new(),
-    };
-    let triangles = faces.iter().flat_map(Face::triangles).collect();
-    Surface::new(faces, shape.points().len()).map_err(|mut all| Error::from(all.swap_remove(0)))?;
-    Ok(triangles)
+    Surface::new(shape.cells().boundary()?, shape.points().len()).map_err(|mut all| Error::from(all.swap_remove(0)))
 }

@@ -7,18 +7,18 @@ use super::{Corner, Edge, Facet, HalfEdge, Level, Placement, Side, Structure, Su
 use crate::mesh::Point;
 
 /// A side of a chart between two corners: its half-edges in the order in which the chart's boundary passes them.
-struct Chain {
-    half_edges: Vec<HalfEdge>,
+pub(super) struct Chain {
+    pub(super) half_edges: Vec<HalfEdge>,
     /// The next side of the same chart.
-    next: usize,
+    pub(super) next: usize,
 }
 
 /// The corners and the chains between them.
 pub(super) struct Skeleton {
-    corners: Vec<u32>,
-    chains: Vec<Chain>,
+    pub(super) corners: Vec<u32>,
+    pub(super) chains: Vec<Chain>,
     /// The chain that a half-edge starts, if it leaves a corner.
-    starts: Vec<u32>,
+    pub(super) starts: Vec<u32>,
 }
 
 impl Skeleton {
@@ -91,7 +91,7 @@ impl Skeleton {
     }
 
     /// The chains of every boundary loop.
-    fn loops(&self) -> Vec<Vec<usize>> {
+    pub(super) fn loops(&self) -> Vec<Vec<usize>> {
         let mut seen = vec![false; self.chains.len()];
         let mut loops = Vec::new();
         for first in 0..self.chains.len() {
@@ -150,7 +150,7 @@ impl Skeleton {
     }
 
     /// The level of every chart: charts of one axis that share a corner share it.
-    fn levels(&self, surface: &Surface, charts: &Charts) -> (Vec<u32>, Vec<Level>) {
+    pub(super) fn levels(&self, surface: &Surface, charts: &Charts) -> (Vec<u32>, Vec<Level>) {
         let mut merged = petgraph::unionfind::UnionFind::<u32>::new(charts.labels.len());
         for &corner in &self.corners {
             let mut first = [None; 3];

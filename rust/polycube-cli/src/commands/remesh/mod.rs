@@ -40,7 +40,8 @@ In the output folder:
   report.json     that of `simplify`, and hexes, inverted, min_sj, avg_sj, hausdorff, quads,
                   histogram, least, largest and mean of the other arrays, times
 Without --polycube one is made of SHAPE, a closed surface, which is cut finer where its map needs
-room; `polycube make` writes it down instead.
+room; `polycube make` writes it down instead. --labels are then those of SHAPE, whose charts become
+the facets of the polycube.
 They appear together when all is done, or not at all. With --surface-only there are no hexahedra
 and no layout.vtk. --format EXT writes hexahedra (or, if it holds surfaces only, quadrilaterals) in
 that format, too; quads.ply has a colour for each patch.
@@ -54,9 +55,8 @@ hexes.vtu) or the surface is farther from the shape than --max-hausdorff.
 #[derive(clap::Args, Clone, Debug)]
 #[command(
     after_help = NOTES,
-    mut_arg("labels", |labels| labels.requires("polycube")),
-    mut_arg("detail", |detail| detail.conflicts_with("polycube")),
-    mut_arg("corners", |corners| corners.conflicts_with("polycube"))
+    mut_arg("detail", |detail| detail.conflicts_with_all(["polycube", "labels"])),
+    mut_arg("corners", |corners| corners.conflicts_with_all(["polycube", "labels"]))
 )]
 pub struct Args {
     /// The shape: a mesh file with the vertices and cells of the polycube, or any closed surface without one
@@ -163,7 +163,7 @@ pub fn run(args: &Args) -> Result<ExitCode> {
 fn meshes(args: &Args, context: &Context) -> Result<MeshFiles> {
     match &args.polycube {
         Some(polycube) => MeshFiles::read(polycube, Some(&args.shape), args.labels.given()),
-        None => MeshFiles::make(&args.shape, &args.make.get(), context),
+        None => MeshFiles::make(&args.shape, args.labels.given(), &args.make.get(), context),
     }
 }
 

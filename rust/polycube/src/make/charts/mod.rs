@@ -27,7 +27,7 @@ pub(super) struct ChartedSurface {
     pub(super) chart: Vec<u32>,
     /// The label of each chart, 0 to 5.
     pub(super) labels: Vec<u8>,
-    /// A crossing of loops in each chart.
+    /// A crossing of loops in each chart; none where charts do not come of loops.
     pub(super) crossings: Vec<u32>,
 }
 

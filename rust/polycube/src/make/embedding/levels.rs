@@ -39,7 +39,7 @@ struct Spring {
 
 /// The levels of a polycube, one for each zone of the loops, and how they must lie.
 #[derive(Clone)]
-pub(super) struct Levels {
+pub(in crate::make) struct Levels {
     /// The level of each chart.
     pub(super) of_chart: Vec<u32>,
     /// Where each level lies on the shape, and the area that lies there.
@@ -53,7 +53,7 @@ pub(super) struct Levels {
 
 impl Levels {
     /// Reads places off the charts and the order off the loops.
-    pub(super) fn new(charts: &ChartedSurface, loops: &LoopSet) -> Self {
+    pub(in crate::make) fn new(charts: &ChartedSurface, loops: &LoopSet) -> Self {
         let mut numbers = BTreeMap::new();
         let mut number = |zone: u32| {
             let next = numbers.len() as u32;
@@ -65,16 +65,37 @@ impl Levels {
         let mut beside = Vec::new();
         for (own, cut) in loops.graph.loops.iter().zip(&loops.mesh.cuts).filter(|(own, _)| own.alive) {
             let [low, high] = own.zones.map(&mut number);
-            differences.push(Difference { low, high, gap: GAP });
+            differences.push(Self::below(low, high));
             beside.extend([(low, cut.at), (high, cut.at)]);
         }
         differences.sort_by_key(|d| (d.low, d.high));
         differences.dedup();
-        let mut above = vec![Vec::new(); numbers.len()];
+        Self::measured(charts, of_chart, numbers.len(), differences, &beside)
+    }
+
+    /// The levels of charts, in a given order.
+    pub(in crate::make) fn ordered(charts: &ChartedSurface, of_chart: Vec<u32>, differences: Vec<Difference>) -> Self {
+        let count = of_chart.iter().max().map_or(0, |last| *last as usize + 1);
+        Self::measured(charts, of_chart, count, differences, &[])
+    }
+
+    fn measured(
+        charts: &ChartedSurface,
+        of_chart: Vec<u32>,
+        count: usize,
+        differences: Vec<Difference>,
+        beside: &[(u32, f64)],
+    ) -> Self {
+        let mut above = vec![Vec::new(); count];
         differences.iter().for_each(|d| above[d.low as usize].push(d.high));
-        let mut levels = Self { of_chart, places: vec![(0.0, 0.0); numbers.len()], differences, above, scale: 1.0 };
-        levels.measure(charts, &beside);
+        let mut levels = Self { of_chart, places: vec![(0.0, 0.0); count], differences, above, scale: 1.0 };
+        levels.measure(charts, beside);
         levels
+    }
+
+    /// That one level lies below another.
+    pub(in crate::make) fn below(low: u32, high: u32) -> Difference {
+        Difference { low, high, gap: GAP }
     }
 
     /// Finds the places: the mean of the charts of a level, or of the loops `beside` one without charts.
@@ -174,7 +195,7 @@ impl Levels {
 
     /// Keeps one level below another from now on.
     pub(super) fn separate(&mut self, low: u32, high: u32) {
-        self.differences.push(Difference { low, high, gap: GAP });
+        self.differences.push(Self::below(low, high));
         self.above[low as usize].push(high);
     }
 }

@@ -6,13 +6,12 @@ mod spans;
 mod surface_map;
 
 use super::charts::ChartedSurface;
-use super::loops::LoopSet;
 use crate::context::Context;
 use crate::error::{Error, ErrorKind, Result};
 use crate::mesh::{Cells, Mesh};
 use crate::remesh::Refined;
 use crate::structure::{Arrangement, Conflict, Polycube, Tolerance};
-use levels::Levels;
+pub(super) use levels::Levels;
 use spans::Span;
 
 /// Most orders of two levels that are added to keep parts of the polycube apart.
@@ -34,8 +33,8 @@ pub(super) struct Embedded {
 /// # Errors
 /// [`ErrorKind::Polycube`] if parts cannot be kept apart; those of the solver and of
 /// [`optimise`](crate::optimise::optimise()); [`ErrorKind::Cancelled`].
-pub(super) fn embed(charts: &ChartedSurface, loops: &LoopSet, context: &Context) -> Result<Embedded> {
-    let (mesh, polycube) = Embedding::new(charts, loops).place(&context.stage("embed", 0.0, 0.3))?;
+pub(super) fn embed(charts: &ChartedSurface, levels: Levels, context: &Context) -> Result<Embedded> {
+    let (mesh, polycube) = Embedding::new(charts, levels).place(&context.stage("embed", 0.0, 0.3))?;
     let mut refined = Refined::new(&polycube, mesh.points(), &charts.points)?;
     let folded = surface_map::unfold(&mut refined, &context.stage("map", 0.3, 1.0))?;
     Ok(Embedded { polycube, refined, folded })
@@ -48,9 +47,9 @@ struct Embedding<'a> {
 }
 
 impl<'a> Embedding<'a> {
-    fn new(charts: &'a ChartedSurface, loops: &LoopSet) -> Self {
+    fn new(charts: &'a ChartedSurface, levels: Levels) -> Self {
         let labels = charts.chart.iter().map(|&c| charts.labels[c as usize] as i8).collect();
-        Self { charts, levels: Levels::new(charts, loops), labels }
+        Self { charts, levels, labels }
     }
 
     /// The polycube without conflicts: with edges about as long as on the shape, or else with charts where they are on
