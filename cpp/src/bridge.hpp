@@ -5,6 +5,7 @@
 #include <exception>
 #include <polycube/context.hpp>
 #include <polycube/error.hpp>
+#include <polycube/make.hpp>
 #include <polycube/mesh.hpp>
 #include <polycube/simplify.hpp>
 #include <string>
@@ -97,7 +98,10 @@ bridge::InputView view(const Input& input);
 Mesh mesh(const bridge::MeshData& data);
 Counts counts(const bridge::CountsData& data) noexcept;
 bridge::ToleranceData tolerance(const Tolerance& tolerance) noexcept;
+Distortion distortion(const bridge::DistortionData& data) noexcept;
 bridge::OptionsData options(const Options& options);
+bridge::MakeOptionsData options(const MakeOptions& options) noexcept;
+Made made(const bridge::MadeData& data);
 Simplified simplified(rust::Box<bridge::Simplified> core);
 
 inline bridge::Real real(const std::optional<double>& value) noexcept {

@@ -77,8 +77,17 @@ SimplifiedPair shown(Simplified simplified, const Settings& settings) {
     return pair;
 }
 
+void add_made(Lines& log, const Made& made) {
+    log.push_back(line("polycube made of the shape: ", made.report.corners, " corners, ", made.report.facets,
+                       " facets, genus ", made.report.genus));
+    if (!made.report.folded.empty()) {
+        log.push_back(line("warning: ", made.report.folded.size(), " triangles are turned over on the polycube"));
+    }
+}
+
 Lines log_of(const Remeshed& result) {
     Lines log;
+    if (result.made) add_made(log, *result.made);
     add_report(log, result.simplified.report());
     const RemeshReport& report = result.report;
     log.push_back(line(report.quads, " quadrilaterals"));
@@ -119,7 +128,11 @@ SimplifiedPair slide(const Pair& pair, const SimplifiedPair& from, double simpli
 }
 
 RemeshedPair remesh(const Pair& pair, const Settings& settings, const Context& context) {
-    RemeshedPair meshed{polycube::remesh(input_of(pair), options_of(pair, settings), context), {}};
+    const RemeshOptions options = options_of(pair, settings);
+    RemeshedPair meshed{pair.polycube.cells.empty() && !pair.shape.cells.empty()
+                            ? polycube::remesh(pair.shape, options, context)
+                            : polycube::remesh(input_of(pair), options, context),
+                        {}};
     meshed.log = log_of(meshed.result);
     return meshed;
 }

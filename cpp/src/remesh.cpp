@@ -63,6 +63,18 @@ RemeshReport report(const bridge::RemeshReportData& data) {
     return report;
 }
 
+Remeshed remeshed(bridge::RemeshedData result) {
+    Remeshed remeshed{internal::simplified(std::move(result.simplified)),
+                      layout(result.layout),
+                      quads(result.quads),
+                      {},
+                      report(result.report),
+                      std::string(result.report_json),
+                      {}};
+    if (result.has_hexes) remeshed.hexes = hexes(result.hexes);
+    return remeshed;
+}
+
 }  // namespace
 
 std::vector<CellField> QuadMesh::fields() const {
@@ -88,15 +100,23 @@ std::vector<CellField> Layout::block_fields() const {
 Remeshed remesh(const Input& input, const RemeshOptions& settings, const Context& context) {
     const bridge::RemeshOptionsData data = options(settings);
     const auto work = [&](const auto& listener) { return bridge::remesh(internal::view(input), data, listener); };
-    bridge::RemeshedData result = internal::call(context, work);
-    Remeshed remeshed{internal::simplified(std::move(result.simplified)),
-                      layout(result.layout),
-                      quads(result.quads),
-                      {},
-                      report(result.report),
-                      std::string(result.report_json)};
-    if (result.has_hexes) remeshed.hexes = hexes(result.hexes);
-    return remeshed;
+    return remeshed(internal::call(context, work));
+}
+
+Remeshed remesh(const Mesh& shape, const RemeshOptions& settings, const Context& context) {
+    if (!settings.simplify.guides.fixed_faces.empty()) {
+        throw Error(ErrorKind::option, "faces cannot be locked before there is a polycube",
+                    "make() one first, and lock faces of that");
+    }
+    const bridge::MakeOptionsData making = internal::options(settings.make);
+    const bridge::RemeshOptionsData data = options(settings);
+    const auto work = [&](const auto& listener) {
+        return bridge::remesh_shape(internal::view(shape), making, data, listener);
+    };
+    bridge::RemeshedShapeData result = internal::call(context, work);
+    Remeshed meshes = remeshed(std::move(result.remeshed));
+    meshes.made = internal::made(result.made);
+    return meshes;
 }
 
 }  // namespace polycube

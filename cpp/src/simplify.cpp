@@ -9,6 +9,11 @@ bool Guides::empty() const noexcept {
 }
 
 namespace internal {
+
+Distortion distortion(const bridge::DistortionData& data) noexcept {
+    return {data.angle, data.size, data.worst_angle, data.worst_size, data.worst_cell};
+}
+
 namespace {
 
 bridge::GuidesData guides(const Guides& guides) {
@@ -22,10 +27,6 @@ bridge::GuidesData guides(const Guides& guides) {
     for (const auto& [first, second] : guides.apart) data.apart.push_back({first, second});
     for (const auto& [axis, at] : guides.symmetry) data.symmetry.push_back({axis, at});
     return data;
-}
-
-Distortion distortion(const bridge::DistortionData& data) noexcept {
-    return {data.angle, data.size, data.worst_angle, data.worst_size, data.worst_cell};
 }
 
 Report report(const bridge::ReportData& data) {

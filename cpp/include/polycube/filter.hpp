@@ -19,7 +19,7 @@ namespace polycube::filter {
 
 /// Layers of a document.
 struct Pair {
-    /// The polycube: triangles or quadrilaterals.
+    /// The polycube: triangles or quadrilaterals; for `remesh` an empty mesh to have one made of the shape.
     Mesh polycube;
     /// The shape, with the same vertices and faces; an empty mesh if there is none.
     Mesh shape;
@@ -81,7 +81,8 @@ SimplifiedPair simplify(const Pair& pair, const Settings& settings = {}, const C
 SimplifiedPair slide(const Pair& pair, const SimplifiedPair& from, double simplicity, const Settings& settings = {},
                      const Context& context = {});
 
-/// Simplifies and meshes the shape: coarse layout, quadrilaterals and, unless left out, hexahedra.
+/// Simplifies and meshes the shape: coarse layout, quadrilaterals and, unless left out, hexahedra. Where there is no
+/// polycube, one is made.
 /// @throws Error as `polycube::remesh`.
 RemeshedPair remesh(const Pair& pair, const Settings& settings = {}, const Context& context = {});
 

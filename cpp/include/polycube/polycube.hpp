@@ -9,6 +9,7 @@
 #include <polycube/error.hpp>
 #include <polycube/example.hpp>
 #include <polycube/filter.hpp>
+#include <polycube/make.hpp>
 #include <polycube/mesh.hpp>
 #include <polycube/quality.hpp>
 #include <polycube/remesh.hpp>

@@ -1,10 +1,11 @@
 /// @file
-/// From a polycube and its shape to a coarse layout, quadrilaterals and hexahedra.
+/// From a shape, with its polycube or alone, to a coarse layout, quadrilaterals and hexahedra.
 #pragma once
 
 #include <array>
 #include <cstdint>
 #include <optional>
+#include <polycube/make.hpp>
 #include <polycube/simplify.hpp>
 #include <string>
 #include <vector>
@@ -36,6 +37,8 @@ struct RemeshOptions {
     /// The largest Hausdorff distance to accept, as a **fraction** of the bounding box's diagonal, above 0: 0.005 is
     /// half a percent. (The command and Python take percent.)
     double max_hausdorff = 0.005;
+    /// How a polycube is made where none is given.
+    MakeOptions make = {};
 };
 
 /// The quadrilateral mesh of the surface. One number per quadrilateral.
@@ -112,6 +115,7 @@ struct Remeshed {
     RemeshReport report;           ///< How good they are.
     std::string
         report_json;  ///< All of it as JSON: what the command writes to report.json, without its files and options.
+    std::optional<Made> made;  ///< The polycube that was made of the shape; nothing where one was given.
 };
 
 /// Simplifies a polycube and meshes its shape with the block structure found. Without a shape the polycube itself is
@@ -131,5 +135,11 @@ struct Remeshed {
 ///
 /// @throws Error as `simplify()`; option for a size, padding or distance out of range.
 Remeshed remesh(const Input& input, const RemeshOptions& options = {}, const Context& context = {});
+
+/// Meshes a shape alone, a closed surface: `polycube::remesh(shape)` makes a polycube of it as `make()` does, and
+/// meshes that as above. `Remeshed::made` is what was made.
+///
+/// @throws Error as `make()` and as above; option for `guides.fixed_faces`, as there are no faces yet to lock.
+Remeshed remesh(const Mesh& shape, const RemeshOptions& options = {}, const Context& context = {});
 
 }  // namespace polycube

@@ -8,6 +8,7 @@ mod buffers;
 mod checking;
 mod failure;
 mod input;
+mod making;
 mod meshing;
 mod options;
 mod results;
@@ -20,7 +21,8 @@ use buffers::{
 };
 use buffers::{example_names, read_labels, write_labels};
 use checking::check;
-use meshing::{default_remesh_options, remesh};
+use making::{default_make_options, make};
+use meshing::{default_remesh_options, remesh, remesh_shape};
 use options::default_options;
 use results::{Simplified, corner_pairs, panic_in_core, simplify};
 
@@ -117,6 +119,12 @@ mod ffi {
         guides: GuidesData,
     }
 
+    struct MakeOptionsData {
+        detail: f64,
+        has_corners: bool,
+        corners: u64,
+    }
+
     struct RemeshOptionsData {
         simplify: OptionsData,
         has_size: bool,
@@ -196,6 +204,24 @@ mod ffi {
         block_of_face: Vec<u32>,
     }
 
+    struct MadeData {
+        polycube: MeshData,
+        shape: MeshData,
+        labels: Vec<i8>,
+        corners: u64,
+        edges: u64,
+        facets: u64,
+        genus: u64,
+        added: u64,
+        misfit: f64,
+        squashed: f64,
+        /// One or nothing.
+        distortion: Vec<DistortionData>,
+        folded: Vec<u32>,
+        seconds: f64,
+        report_json: String,
+    }
+
     struct QuadsData {
         mesh: MeshData,
         label: Vec<i8>,
@@ -254,6 +280,11 @@ mod ffi {
         hexes: HexesData,
         report: RemeshReportData,
         report_json: String,
+    }
+
+    struct RemeshedShapeData {
+        made: MadeData,
+        remeshed: RemeshedData,
     }
 
     struct PlaceData {
@@ -335,6 +366,13 @@ mod ffi {
         fn rescaled(self: &Simplified, input: &InputView, scale: f64, observer: &Observer) -> Result<Box<Simplified>>;
         fn simplify(input: &InputView, options: &OptionsData, observer: &Observer) -> Result<Box<Simplified>>;
         fn remesh(input: &InputView, options: &RemeshOptionsData, observer: &Observer) -> Result<RemeshedData>;
+        fn make(shape: &MeshView, options: &MakeOptionsData, observer: &Observer) -> Result<MadeData>;
+        fn remesh_shape(
+            shape: &MeshView,
+            making: &MakeOptionsData,
+            options: &RemeshOptionsData,
+            observer: &Observer,
+        ) -> Result<RemeshedShapeData>;
         fn check(input: &InputView, tolerance: &ToleranceData, observer: &Observer) -> Result<CheckedData>;
 
         fn read_mesh(path: &str) -> Result<MeshData>;
@@ -353,6 +391,7 @@ mod ffi {
         // For tests.
         fn default_options() -> OptionsData;
         fn default_remesh_options() -> RemeshOptionsData;
+        fn default_make_options() -> MakeOptionsData;
         fn corner_pairs(points: &[i64]) -> Result<Vec<u32>>;
         fn panic_in_core(input: &InputView, stage: &str, observer: &Observer) -> Result<()>;
     }

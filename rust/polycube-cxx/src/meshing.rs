@@ -2,13 +2,19 @@
 
 use crate::failure::{Result, guard};
 use crate::ffi::*;
-use crate::input::Owned;
+use crate::input::{Owned, mesh};
+use crate::making::{made, make_options};
 use crate::options::{defaults, options};
 use crate::results::{Simplified, json};
 use crate::run::run;
+use polycube::make;
 use polycube::measure::CellMeasures;
 use polycube::remesh::{self as core, Hexes, Layout, Quads, RemeshOptions, RemeshReport, Remeshed, Size};
+use polycube::simplify::Input;
 use polycube::{Error, ErrorKind};
+
+/// The part of all that making a polycube takes in the progress that is told.
+const MAKING: f64 = 0.1;
 
 /// See `polycube::remesh::remesh`.
 pub fn remesh(input: &InputView, data: &RemeshOptionsData, observer: &Observer) -> Result<RemeshedData> {
@@ -19,6 +25,23 @@ pub fn remesh(input: &InputView, data: &RemeshOptionsData, observer: &Observer) 
     })?;
     let result = run(observer, |context| core::remesh(&owned.input(), &options, context))?;
     guard(|| remeshed(result))
+}
+
+/// Makes a polycube of a shape and meshes that.
+pub fn remesh_shape(
+    shape: &MeshView,
+    making: &MakeOptionsData,
+    data: &RemeshOptionsData,
+    observer: &Observer,
+) -> Result<RemeshedShapeData> {
+    let (shape, options) = guard(|| Ok((mesh(shape)?, remesh_options(data)?)))?;
+    let (pair, result) = run(observer, |context| {
+        let pair = make::make(&shape, &make_options(making), &context.stage("make", 0.0, MAKING))?;
+        let input = Input { polycube: &pair.polycube, shape: Some(&pair.shape), labels: Some(&pair.labels) };
+        let result = core::remesh(&input, &options, &context.stage("remesh", MAKING, 1.0))?;
+        Ok((pair, result))
+    })?;
+    guard(|| Ok(RemeshedShapeData { made: made(&pair)?, remeshed: remeshed(result)? }))
 }
 
 fn remesh_options(data: &RemeshOptionsData) -> polycube::Result<RemeshOptions> {

@@ -1,0 +1,36 @@
+#include <polycube/make.hpp>
+
+#include "bridge.hpp"
+
+namespace polycube {
+namespace internal {
+
+bridge::MakeOptionsData options(const MakeOptions& options) noexcept {
+    return {options.detail, options.corners.has_value(), options.corners.value_or(0)};
+}
+
+Made made(const bridge::MadeData& data) {
+    MakeReport report;
+    report.corners = data.corners;
+    report.edges = data.edges;
+    report.facets = data.facets;
+    report.genus = data.genus;
+    report.added = data.added;
+    report.misfit = data.misfit;
+    report.squashed = data.squashed;
+    if (!data.distortion.empty()) report.distortion = distortion(data.distortion[0]);
+    report.folded = vector(data.folded);
+    report.seconds = data.seconds;
+    return {mesh(data.polycube), mesh(data.shape), vector(data.labels), std::move(report),
+            std::string(data.report_json)};
+}
+
+}  // namespace internal
+
+Made make(const Mesh& shape, const MakeOptions& options, const Context& context) {
+    const bridge::MakeOptionsData data = internal::options(options);
+    const auto work = [&](const auto& listener) { return bridge::make(internal::view(shape), data, listener); };
+    return internal::made(internal::call(context, work));
+}
+
+}  // namespace polycube
