@@ -74,7 +74,8 @@ fn squashed(shape: &Mesh, polycube: &Mesh) -> f64 {
     let scale = (total(shape) / total(polycube)).sqrt();
     let small =
         |t: &&[u32; 3]| scale * least_stretch(&t.map(|v| [shape, polycube].map(|m| m.points()[v as usize]))) < SQUASHED;
-    triangles.iter().filter(small).map(|t| doubled(shape, t)).sum::<f64>() / total(shape)
+    // The sum of none is -0 otherwise.
+    triangles.iter().filter(small).fold(0.0, |sum, t| sum + doubled(shape, t)) / total(shape)
 }
 
 /// The smaller singular value of the map of a triangle, whose corners are given before and after; 1 for one without

@@ -33,6 +33,10 @@ const ROUNDS: usize = 40;
 /// Triangles of the cut mesh, for each of the shape and besides, beyond which an attempt is given up.
 const GROWTH: usize = 20;
 const GROWTH_OFFSET: usize = 100_000;
+/// Levels that are nearer than this share of a part lie equally high.
+const TIE: f64 = 1e-6;
+/// By which share of a part the levels of each axis move then.
+const SHIFTS: [f64; 3] = [0.0, 0.21, -0.17];
 /// Parts of the distance of two levels among which the best place of a level is chosen.
 const PARTS: usize = 16;
 
@@ -106,7 +110,20 @@ fn level_cuts(mesh: &CutMesh, spans: [[f64; 2]; 3], step: f64) -> Vec<Cut> {
             cuts.push(Cut { axis, at: widest_gap(&sorted, at, at + part) });
         }
     }
+    part_ties(&mut cuts, spans, step / PARTS as f64);
     cuts
+}
+
+/// Moves levels by less than `part` where those of two axes lie equally high: on a cube, all of them would meet on the
+/// diagonals that its faces are cut along, and what is cut there would have no area.
+fn part_ties(cuts: &mut [Cut], spans: [[f64; 2]; 3], part: f64) {
+    let height = |cut: &Cut| cut.at - spans[cut.axis][0];
+    let tied = |a: &Cut, b: &Cut| a.axis != b.axis && (height(a) - height(b)).abs() < TIE * part;
+    let mut sorted: Vec<Cut> = cuts.to_vec();
+    sorted.sort_by(|a, b| height(a).total_cmp(&height(b)));
+    if sorted.windows(2).any(|pair| tied(&pair[0], &pair[1])) {
+        cuts.iter_mut().for_each(|cut| cut.at += SHIFTS[cut.axis] * part);
+    }
 }
 
 /// How much of the surface faces an axis in each of the parts of its span.

@@ -50,6 +50,19 @@ fn plate(holes: i64) -> Voxels {
     Voxels::from_difference(&[body], &(0..holes).map(hole).collect::<Vec<_>>()).expect("holes apart")
 }
 
+/// Where levels of two axes meet on the diagonals of squares, what is cut there has no area and never goes away again.
+#[test]
+fn levels_of_a_cube_do_not_meet_on_its_diagonals() {
+    let mesh =
+        Voxels::from_boxes(&[Cuboid::new([0, 0, 0], [2, 2, 2])]).unwrap().mesh(CellKind::Triangles, 1.0).unwrap();
+    let (points, triangles) = (mesh.points(), triangles(&mesh));
+    let values = Field::new(points, &triangles).solve(2.0, 0.0, &Context::default()).unwrap();
+    let cut = start(points, &values, &triangles, 16, &Context::default()).unwrap().mesh;
+    let areas: Vec<f64> = (0..cut.triangles.len()).map(|t| cut.area_vector(t).norm()).collect();
+    let mean = areas.iter().sum::<f64>() / areas.len() as f64;
+    assert!(areas.len() > 6 * 16 * 16 && areas.iter().all(|area| *area > 1e-5 * mean), "{} triangles", areas.len());
+}
+
 #[test]
 fn a_box_has_eight_corners() {
     let mesh =
