@@ -1,6 +1,6 @@
 //! What a hexahedron is made of, by the numbers of its vertices in VTK's order.
 
-/// The faces, counter-clockwise seen from outside.
+/// The faces, counter-clockwise seen from outside: of a box those at −X +X −Y +Y −Z +Z.
 pub(crate) const FACES: [[usize; 4]; 6] =
     [[0, 4, 7, 3], [1, 2, 6, 5], [0, 1, 5, 4], [3, 7, 6, 2], [0, 3, 2, 1], [4, 5, 6, 7]];
 
@@ -14,6 +14,25 @@ pub(crate) const EDGES: [[[usize; 2]; 4]; 3] =
 
 /// The octant of a box that each vertex lies in: bit `a` is set on the upper side along axis `a`. Its own inverse.
 pub(crate) const OCTANTS: [usize; 8] = [0, 1, 3, 2, 4, 5, 7, 6];
+
+/// A face of a hexahedron.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub struct HexFace {
+    /// The hexahedron.
+    pub cell: u32,
+    /// Which of its faces, 0 to 5: of a box in VTK's order those at −X +X −Y +Y −Z +Z.
+    pub face: u8,
+}
+
+impl HexFace {
+    /// Its vertices, counter-clockwise seen from outside the hexahedron.
+    ///
+    /// # Panics
+    /// Unless the hexahedron is one of `cells` and the face one of 0 to 5.
+    pub fn vertices(self, cells: &[[u32; 8]]) -> [u32; 4] {
+        FACES[usize::from(self.face)].map(|k| cells[self.cell as usize][k])
+    }
+}
 
 /// The tetrahedra at the eight vertices, positive where the hexahedron is not inverted.
 pub(crate) fn corner_tetrahedra(hex: &[u32; 8]) -> [[u32; 4]; 8] {

@@ -5,15 +5,18 @@
 
 mod checked;
 mod compact;
+mod groups;
 pub(crate) mod hexahedron;
 mod io;
 mod simplices;
 mod stars;
 
 pub use checked::Mesh;
+pub use groups::{GroupedHexes, Groups};
+pub use hexahedron::HexFace;
 pub use io::{
-    CellField, FieldValues, Format, LabelOrder, Staged, parse_labels, read, read_bytes, read_labels, read_labels_of,
-    read_pair, write, write_atomically, write_bytes, write_labels,
+    CellField, FieldValues, Format, LabelOrder, SolverFormat, Staged, parse_labels, read, read_bytes, read_labels,
+    read_labels_of, read_pair, write, write_atomically, write_bytes, write_labels, write_solver,
 };
 pub use simplices::{Face, Simplices};
 pub(crate) use stars::Stars;

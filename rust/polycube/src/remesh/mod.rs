@@ -16,8 +16,8 @@ mod stages;
 #[cfg(test)]
 mod tests;
 
-pub use lattice::Size;
 pub(crate) use lattice::count_hexes;
+pub use lattice::{BoundaryFace, Size};
 pub(crate) use map::Refined;
 pub use mesher::{Hexes, Layout, Quads, SingularEdge};
 pub use options::RemeshOptions;

@@ -1,4 +1,4 @@
-//! Mesh files: OBJ, OFF, PLY, STL, MEDIT, VTK and VTU.
+//! Mesh files: OBJ, OFF, PLY, STL, MEDIT, VTK and VTU, and those of solvers, which are only written.
 //!
 //! Every reader takes the bytes of a file and returns a [`Mesh`] or an [`Error`] that says where the file
 //! is wrong. No input panics, loops, or takes more memory than in proportion to its size.
@@ -18,6 +18,7 @@ mod polygon;
 mod scalar;
 mod scan;
 mod sniff;
+mod solver;
 mod soup;
 mod stl;
 mod text;
@@ -35,6 +36,7 @@ pub use format::Format;
 pub use label_order::LabelOrder;
 pub use labels::{parse_labels, read_labels, read_labels_of, write_labels};
 pub use pair::read_pair;
+pub use solver::{SolverFormat, write_solver};
 
 use self::soup::Soup;
 use super::Mesh;

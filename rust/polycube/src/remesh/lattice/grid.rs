@@ -1,9 +1,11 @@
 //! The integer lattice inside a polycube: unit cells, the unit squares of its surface, and what each belongs to.
 
+use super::boundary::BoundaryFace;
 use super::carrier::Carrier;
 use super::keys::{Keys, rank, ranks, too_fine};
 use crate::error::{Error, ErrorKind, Result};
 use crate::layout::{Block, Complex, Lattice, Patch, Separatrices};
+use crate::mesh::HexFace;
 use crate::mesh::hexahedron::OCTANTS;
 use crate::structure::{Arrangement, Label, Structure, placement_of};
 
@@ -89,17 +91,20 @@ impl Grid {
         OCTANTS.map(|k| self.hexes[cell][k])
     }
 
-    /// The label of the first surface square of each cell, −1 for inner cells.
-    pub(crate) fn cell_labels(&self) -> Vec<i8> {
-        let mut labels = vec![-1; self.cells.len()];
-        for square in self.squares.iter().rev() {
+    /// The face of a cell that each surface square is.
+    ///
+    /// # Errors
+    /// [`ErrorKind::Internal`] unless there is a cell behind every square.
+    pub(crate) fn boundary(&self) -> Result<Vec<BoundaryFace>> {
+        let face = |square: &Square| {
             let lowest = square.vertices.iter().map(|&v| self.vertices[v as usize]).min().unwrap_or_default();
-            let back = if square.label.sign() > 0 { Keys::step(square.label.axis()) } else { 0 };
-            if let Some(cell) = rank(&self.cells, lowest - back) {
-                labels[cell as usize] = square.label.index() as i8;
-            }
-        }
-        labels
+            let Square { label, facet, .. } = *square;
+            let (back, upper) = if label.sign() > 0 { (Keys::step(label.axis()), 1) } else { (0, 0) };
+            let cell = rank(&self.cells, lowest - back).ok_or_else(torn)?;
+            let face = HexFace { cell, face: (2 * label.axis() + upper) as u8 };
+            Ok(BoundaryFace { face, label, facet })
+        };
+        self.squares.iter().map(face).collect()
     }
 
     /// The vertices on the surface, ascending.

@@ -1,11 +1,13 @@
 //! The integer lattice inside a polycube, its size, and the padding around it.
 
+mod boundary;
 mod carrier;
 mod grid;
 mod keys;
 mod padding;
 mod size;
 
+pub use boundary::BoundaryFace;
 pub(crate) use carrier::Carrier;
 pub(crate) use grid::{Grid, Rectangle};
 pub(crate) use keys::{Keys, rank, too_fine};

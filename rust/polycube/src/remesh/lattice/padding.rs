@@ -47,14 +47,16 @@ impl Padding {
         }
     }
 
-    /// The hexahedra of the layers, from the lattice outward, layer by layer for every square of the surface, and the
-    /// square each belongs to.
-    pub(crate) fn hexes<'a>(&'a self, grid: &'a Grid) -> impl Iterator<Item = ([u32; 8], usize)> + 'a {
+    /// The hexahedra of the layers, from the lattice outward, layer by layer for every square of the surface, the
+    /// square each belongs to, and whether its layer is the outermost.
+    pub(crate) fn hexes<'a>(&'a self, grid: &'a Grid) -> impl Iterator<Item = ([u32; 8], usize, bool)> + 'a {
         let hex = move |square: &[u32; 4], layer: usize| -> [u32; 8] {
             std::array::from_fn(|k| self.number(grid, square[k % 4], layer + k / 4))
         };
         let squares = grid.squares.iter().enumerate();
-        squares.flat_map(move |(s, square)| (0..self.layers).map(move |layer| (hex(&square.vertices, layer), s)))
+        squares.flat_map(move |(s, square)| {
+            (0..self.layers).map(move |layer| (hex(&square.vertices, layer), s, layer + 1 == self.layers))
+        })
     }
 }
 

@@ -5,12 +5,15 @@ use super::remesher::Remesher;
 use crate::context::Context;
 use crate::error::{Error, ErrorKind, Result};
 use crate::measure::{CellMeasures, Quality, mean_determinant, scaled_jacobian, soundness};
-use crate::mesh::{CellField, Cells, Mesh, Point};
-use crate::remesh::lattice::{Carrier, Grid, Padding, too_fine};
+use crate::mesh::{CellField, Cells, HexFace, Mesh, Point};
+use crate::remesh::lattice::{BoundaryFace, Carrier, Grid, Padding, too_fine};
 use crate::remesh::map::{fill_inside, interpolate};
 
 /// Most padding layers there can be.
 pub(crate) const MAX_PADDING: usize = 16;
+
+/// The face of a hexahedron of the padding that looks away from the lattice: its top.
+const OUTWARD: u8 = 5;
 
 /// A hexahedral mesh of the shape.
 #[derive(Clone, Debug, PartialEq)]
@@ -27,6 +30,8 @@ pub struct Hexes {
     pub block_id: Vec<u32>,
     /// For each hexahedron the label of its facet at the surface (its first one at edges), 0 to 5; −1 inside.
     pub label: Vec<i8>,
+    /// The faces of its outside, in the order of the quadrilaterals of the surface.
+    pub boundary: Vec<BoundaryFace>,
     /// How many vertices the map did not hold, so that the nearest point of it was taken.
     pub guessed: usize,
 }
@@ -106,12 +111,18 @@ impl Remesher<'_> {
 
     fn unpadded(&self, embedding: Embedding) -> Result<Hexes> {
         let grid = &self.grid;
+        let boundary = grid.boundary()?;
+        let mut label = vec![-1; grid.hexes.len()];
+        for side in boundary.iter().rev() {
+            label[side.face.cell as usize] = side.label.index() as i8;
+        }
         Ok(Hexes {
             mesh: Mesh::new(embedding.points, Cells::Hexahedra(grid.hexes.clone()))?,
             polycube: (0..grid.vertices.len()).map(|v| Point::from(grid.position(v))).collect(),
             carriers: grid.carriers.clone(),
             block_id: grid.block.clone(),
-            label: grid.cell_labels(),
+            label,
+            boundary,
             guessed: embedding.guessed,
         })
     }
@@ -151,14 +162,19 @@ impl Remesher<'_> {
         let grid = &self.grid;
         let (mut hexes, mut block_id) = (grid.hexes.clone(), grid.block.clone());
         let mut label = vec![-1; hexes.len()];
-        for (hex, square) in padding.hexes(grid) {
+        let mut boundary = Vec::with_capacity(grid.squares.len());
+        for (hex, square, outermost) in padding.hexes(grid) {
             let square = &grid.squares[square];
+            if outermost {
+                let face = HexFace { cell: hexes.len() as u32, face: OUTWARD };
+                boundary.push(BoundaryFace { face, label: square.label, facet: square.facet });
+            }
             hexes.push(hex);
             block_id.push(grid.blocks.len() as u32 + square.face);
             label.push(square.label.index() as i8);
         }
         let mesh = Mesh::new(embedding.points, Cells::Hexahedra(hexes))?;
-        Ok(Hexes { mesh, polycube, carriers, block_id, label, guessed: embedding.guessed })
+        Ok(Hexes { mesh, polycube, carriers, block_id, label, boundary, guessed: embedding.guessed })
     }
 }
 

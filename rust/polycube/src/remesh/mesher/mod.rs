@@ -1,6 +1,7 @@
 //! Quadrilaterals, hexahedra and coarse layouts: the lattice mapped onto the shape.
 
 mod embedding;
+mod groups;
 mod hexes;
 mod layout;
 mod quads;

@@ -1,6 +1,6 @@
 //! Where the vertices lie.
 
-use super::{Case, quality};
+use super::{Case, cells, generated, quality};
 use crate::align::Strategy;
 use crate::context::Context;
 use crate::generate::{Example, example};
@@ -88,4 +88,29 @@ fn hausdorff_sees_both_ways() {
     let [a, b] = [hausdorff(&spiked, &cube, &context), hausdorff(&cube, &spiked, &context)].map(|x| x.unwrap());
     assert_eq!(a, b);
     assert!((2.5..=3.0).contains(&a), "{a}");
+}
+
+#[test]
+fn the_outside_of_hexahedra_is_the_surface_and_knows_its_facets() {
+    for case in generated().step_by(3) {
+        let remesher = case.remesher();
+        let context = Context::default();
+        let quads = remesher.quads(&context).unwrap();
+        let facets = &case.simplified.input.structure.facets;
+        for padding in [0, 2] {
+            let hexes = remesher.hexes(padding, &context).unwrap();
+            hexes.grouped().unwrap();
+            assert_eq!(hexes.boundary.len(), quads.label.len(), "{}", case.name);
+            for (i, side) in hexes.boundary.iter().enumerate() {
+                let at = |v: u32| hexes.mesh.points()[v as usize];
+                let expected: Vec<Point> =
+                    quads.mesh.cells().cell(i).iter().map(|&v| quads.mesh.points()[v as usize]).collect();
+                let found = side.face.vertices(cells(&hexes.mesh)).map(at);
+                // A face may begin at another corner.
+                let turned = (0..4).any(|k| (0..4).all(|j| found[(j + k) % 4] == expected[j]));
+                assert!(turned, "{}: face {i} with padding {padding}", case.name);
+                assert_eq!((side.label.index() as i8, side.label), (quads.label[i], facets[side.facet as usize].label));
+            }
+        }
+    }
 }
