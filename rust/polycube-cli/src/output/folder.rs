@@ -62,15 +62,18 @@ impl Output {
 
     /// The meshes `NAME.EXT` of an earlier run, which left its report, in every format that holds a kind of cells.
     pub fn meshes_left(&self, names: &[(&str, &[CellKind])]) -> Vec<PathBuf> {
-        if !self.path(REPORT).is_file() {
-            return Vec::new();
-        }
         let able = |kinds: &[CellKind], format: Format| kinds.iter().any(|&kind| format.holds(kind));
         let all = names.iter().flat_map(|&(name, kinds)| {
             let formats = Format::ALL.into_iter().filter(move |&f| able(kinds, f));
             formats.map(move |format| format!("{name}.{format}"))
         });
-        all.map(|name| self.path(&name)).collect()
+        self.left(all)
+    }
+
+    /// The files with these names, if an earlier run left its report.
+    pub fn left(&self, names: impl IntoIterator<Item = String>) -> Vec<PathBuf> {
+        let any = self.path(REPORT).is_file();
+        names.into_iter().filter(|_| any).map(|name| self.path(&name)).collect()
     }
 
     /// Gives all files their names, unless the context was cancelled, and removes those `stale` of an earlier run that
@@ -88,6 +91,10 @@ impl Output {
         };
         for path in stale.iter().filter(|p| p.is_file() && !is_used(p)) {
             fs::remove_file(path).map_err(|e| failed("remove", path, &e))?;
+            for folder in path.ancestors().skip(1).take_while(|&p| p != self.folder) {
+                // Fails where something else is in it, which is as it should be.
+                let _ = fs::remove_dir(folder);
+            }
         }
         for (path, file) in std::mem::take(&mut self.files) {
             file.publish(&path).map_err(|e| failed("write", &path, &e))?;
@@ -218,8 +225,9 @@ mod tests {
         let root = tempfile::tempdir().unwrap();
         let output = Output::new(root.path()).unwrap();
         let left = || output.meshes_left(&[("hexes", &[CellKind::Hexahedra])]);
-        assert!(left().is_empty());
+        assert!(left().is_empty() && output.left(["a/b".into()]).is_empty());
         fs::write(root.path().join(REPORT), "").unwrap();
+        assert_eq!(output.left(["a/b".into()]), [root.path().join("a/b")]);
         assert_eq!(left(), ["mesh", "vtk", "vtu"].map(|e| root.path().join(format!("hexes.{e}"))));
     }
 }

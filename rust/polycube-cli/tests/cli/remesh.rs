@@ -73,6 +73,34 @@ fn no_mesh_of_an_earlier_run_stays() {
 }
 
 #[test]
+fn formats_for_solvers_may_be_several_and_go_with_the_next_run() {
+    let sandbox = sandbox(CellKind::Triangles, "obj");
+    let line = "remesh shape.obj --polycube cube.obj -o out --quiet --hexes 400 --max-hausdorff 50";
+    sandbox.ok(&format!("{line} --format msh --format foam --format vtk --format MSH --format su2 --format inp"));
+    let more = ["foam", "hexes.inp", "hexes.msh", "hexes.su2", "hexes.vtk"];
+    let mut all: Vec<&str> = FILES.map(|file| if file == "polycube.mesh" { "polycube.obj" } else { file }).to_vec();
+    let without = all.clone();
+    all.extend(more);
+    all.sort_unstable();
+    assert_eq!(sandbox.names("out"), all);
+    let files = ["boundary", "cellZones", "faces", "neighbour", "owner", "points"];
+    assert_eq!(sandbox.names("out/foam/constant/polyMesh"), files);
+    sandbox.ok(line);
+    assert_eq!(sandbox.names("out"), without);
+}
+
+#[test]
+fn solvers_want_hexahedra() {
+    let sandbox = sandbox(CellKind::Triangles, "obj");
+    let line = "remesh shape.obj --polycube cube.obj -o no";
+    for format in ["msh", "inp", "su2", "foam"] {
+        sandbox.fails(&format!("{line} --surface-only --format {format}"), 2, &[format, "--surface-only"]);
+    }
+    sandbox.fails(&format!("{line} --format cgns"), 2, &["cgns", "msh, inp, su2, foam"]);
+    assert!(!sandbox.path("no").exists());
+}
+
+#[test]
 fn a_surface_too_far_away_is_written_with_exit_code_4() {
     let sandbox = sandbox(CellKind::Triangles, "obj");
     let line = "remesh shape.obj --polycube cube.obj -o out --hexes 400 --max-hausdorff 0.0001";

@@ -2,8 +2,9 @@
 
 use crate::failure::Result;
 use crate::input::meshes::MeshFiles;
+use crate::options::format::{OutputFormat, solver_formats};
 use crate::output::colour;
-use polycube::mesh::{CellField, CellKind, Format, Mesh};
+use polycube::mesh::{CellField, CellKind, Format, Mesh, SolverFormat, write_solver};
 use polycube::remesh::Remeshed;
 use polycube::{Error, ErrorKind};
 use std::path::Path;
@@ -12,35 +13,55 @@ use std::path::Path;
 pub struct Formats {
     /// That of the polycube, as it was read.
     pub polycube: Format,
-    /// One more of the hexahedra or, where it cannot hold them, of the quadrilaterals.
-    extra: Option<Format>,
+    /// More of the hexahedra or, where one cannot hold them, of the quadrilaterals.
+    extra: Vec<Format>,
+    /// Those of the hexahedra for solvers.
+    solvers: Vec<SolverFormat>,
 }
 
 impl Formats {
-    /// The format of the file `polycube`, and `extra` if it can hold a result.
+    /// The format of the file `polycube`, and those `asked` for if they can hold a result; of `surface` alone there
+    /// are no hexahedra. Of a format asked for twice there is one.
     ///
     /// # Errors
     /// [`ErrorKind::Option`] when a format cannot hold what shall be in it.
-    pub fn new(polycube: &Path, extra: Option<Format>, meshes: &MeshFiles) -> Result<Self> {
+    pub fn new(polycube: &Path, asked: &[OutputFormat], surface: bool, meshes: &MeshFiles) -> Result<Self> {
         let polycube = Format::from_path(polycube)?;
         if !polycube.holds(meshes.polycube.cells().kind()) {
             let kind = meshes.polycube.cells().kind();
             return Err(Error::new(ErrorKind::Option, format!("a .{polycube} file cannot hold {kind}")).into());
         }
-        if extra == Some(Format::Stl) {
-            return Err(Error::new(ErrorKind::Option, "a .stl file cannot hold quadrilaterals or hexahedra")
-                .remedy("choose --format from obj, off, ply, mesh, vtk, vtu")
-                .into());
+        let mut formats = Self { polycube, extra: Vec::new(), solvers: Vec::new() };
+        for (_, &format) in asked.iter().enumerate().filter(|&(i, format)| !asked[..i].contains(format)) {
+            match format {
+                OutputFormat::Mesh(Format::Stl) => return Err(no_stl().into()),
+                OutputFormat::Solver(solver) if surface => return Err(no_surface(solver).into()),
+                OutputFormat::Mesh(format) => formats.extra.push(format),
+                OutputFormat::Solver(solver) => formats.solvers.push(solver),
+            }
         }
-        Ok(Self { polycube, extra })
+        Ok(formats)
     }
 }
+
+fn no_stl() -> Error {
+    Error::new(ErrorKind::Option, "a .stl file cannot hold quadrilaterals or hexahedra")
+        .remedy(format!("choose --format from obj, off, ply, mesh, vtk, vtu, {}", solver_formats()))
+}
+
+fn no_surface(format: SolverFormat) -> Error {
+    Error::new(ErrorKind::Option, format!("the format {format} is for hexahedra, and --surface-only makes none"))
+        .remedy("leave out one of the two")
+}
+
+/// The name of the hexahedral mesh.
+const HEXES: &str = "hexes";
 
 /// The names of the meshes that may be written, and what their formats must be able to hold.
 pub const MESHES: [(&str, &[CellKind]); 4] = [
     ("layout", &[CellKind::Quads, CellKind::Hexahedra]),
     ("quads", &[CellKind::Quads]),
-    ("hexes", &[CellKind::Hexahedra]),
+    (HEXES, &[CellKind::Hexahedra]),
     ("polycube", &CellKind::ALL),
 ];
 
@@ -66,7 +87,8 @@ pub fn files<'a>(result: &'a Remeshed, formats: &Formats) -> Vec<File<'a>> {
     if let Some(mesh) = &result.simplified.polycube {
         files.push(file("polycube", formats.polycube, mesh, Vec::new()));
     }
-    let extra = formats.extra.filter(|f| !matches!((f, &result.hexes), (Format::Obj, _)));
+    let written = if result.hexes.is_some() { &[Format::Obj, Format::Medit, Format::Vtu][..] } else { &[Format::Obj] };
+    let extra = formats.extra.iter().copied().filter(|f| !written.contains(f));
     let Some(hexes) = &result.hexes else {
         files.extend(extra.map(|f| file("quads", f, &result.quads.mesh, quad_fields(result, f))));
         return files;
@@ -74,14 +96,28 @@ pub fn files<'a>(result: &'a Remeshed, formats: &Formats) -> Vec<File<'a>> {
     let fields = hexes.fields();
     let blocks = result.layout.blocks.iter();
     files.extend(blocks.map(|blocks| file("layout", Format::Vtk, blocks, result.layout.block_fields())));
-    files.push(file("hexes", Format::Medit, &hexes.mesh, Vec::new()));
-    files.push(file("hexes", Format::Vtu, &hexes.mesh, fields.clone()));
-    match extra {
-        None | Some(Format::Medit | Format::Vtu) => {}
-        Some(f) if f.holds(hexes.mesh.cells().kind()) => files.push(file("hexes", f, &hexes.mesh, fields)),
-        Some(f) => files.push(file("quads", f, &result.quads.mesh, quad_fields(result, f))),
-    }
+    files.push(file(HEXES, Format::Medit, &hexes.mesh, Vec::new()));
+    files.push(file(HEXES, Format::Vtu, &hexes.mesh, fields.clone()));
+    files.extend(extra.map(|f| match f.holds(hexes.mesh.cells().kind()) {
+        true => file(HEXES, f, &hexes.mesh, fields.clone()),
+        false => file("quads", f, &result.quads.mesh, quad_fields(result, f)),
+    }));
     files
+}
+
+/// The files for solvers with their names, which may begin with the names of folders.
+///
+/// # Errors
+/// Those of [`Hexes::grouped`](polycube::remesh::Hexes::grouped).
+pub fn solver_files(result: &Remeshed, formats: &Formats) -> Result<Vec<(String, Vec<u8>)>> {
+    let Some(hexes) = result.hexes.as_ref().filter(|_| !formats.solvers.is_empty()) else { return Ok(Vec::new()) };
+    let grouped = hexes.grouped()?;
+    Ok(formats.solvers.iter().flat_map(|&format| write_solver(format, HEXES, &grouped)).collect())
+}
+
+/// The names of all files for solvers that there may be.
+pub fn all_solver_files() -> Vec<String> {
+    SolverFormat::ALL.into_iter().flat_map(|format| format.files(HEXES)).collect()
 }
 
 /// The fields of the quadrilaterals, and in PLY a colour for each patch.

@@ -5,7 +5,7 @@ mod files;
 use crate::failure::{Failure, INFERIOR, Result};
 use crate::input::meshes::MeshFiles;
 use crate::options::choice::ChoiceArgs;
-use crate::options::format::format;
+use crate::options::format::{OutputFormat, output_format};
 use crate::options::make::MakeArgs;
 use crate::options::mesh::MeshArgs;
 use crate::options::number::percent;
@@ -18,9 +18,9 @@ use crate::output::progress::Progress;
 use crate::output::report::{Files, RemeshRun};
 use crate::output::{table, terminal};
 use clap::ValueHint;
-use files::{Formats, MESHES, files};
+use files::{Formats, MESHES, all_solver_files, files, solver_files};
 use polycube::Context;
-use polycube::mesh::{self, Format};
+use polycube::mesh;
 use polycube::remesh::{RemeshOptions, Remeshed, remesh};
 use polycube::simplify::SimplifyOptions;
 use std::path::{Path, PathBuf};
@@ -44,7 +44,14 @@ room; `polycube make` writes it down instead. --labels are then those of SHAPE, 
 the facets of the polycube.
 They appear together when all is done, or not at all. With --surface-only there are no hexahedra
 and no layout.vtk. --format EXT writes hexahedra (or, if it holds surfaces only, quadrilaterals) in
-that format, too; quads.ply has a colour for each patch.
+that format, too, and may be given several times; quads.ply has a colour for each patch.
+For solvers, with blocks and boundary by name (block_0 …; facet_0 …, and minus_x to plus_z for all
+facets that look one way on the polycube):
+  msh    hexes.msh, of Gmsh 4.1: physical groups
+  inp    hexes.inp, of Abaqus and CalculiX: C3D8, with ELSET, NSET and SURFACE
+  su2    hexes.su2, of SU2: markers minus_x to plus_z, no blocks
+  foam   foam/constant/polyMesh, of OpenFOAM: a patch for each facet, in the group of its direction;
+         cell zones
 --hexes N with --surface-only: the lattice is as fine as for N hexahedra, and the quadrilaterals
 are those of its surface, not N.
 Exit code 4: the meshes are written, but hexahedra are inverted (scaled_jacobian of 0 or less in
@@ -103,9 +110,9 @@ pub struct Args {
     #[arg(long, value_name = "PERCENT", value_parser = percent, default_value_t = 0.5)]
     pub max_hausdorff: f64,
 
-    /// Write the mesh in this format, too: obj, off, ply, mesh, vtk or vtu
-    #[arg(long, value_name = "EXT", value_parser = format)]
-    pub format: Option<Format>,
+    /// Write the mesh in this format, too (may be repeated): obj, off, ply, mesh, vtk, vtu; msh, inp, su2 or foam
+    #[arg(long, value_name = "EXT", value_parser = output_format)]
+    pub format: Vec<OutputFormat>,
 
     /// Whether it is silent.
     #[command(flatten)]
@@ -173,7 +180,7 @@ pub fn work(args: &Args, context: &Context) -> Result<Remeshed> {
     context.stage("read", 0.0, 0.05).tick(0.0)?;
     let meshes = meshes(args, &context.stage("make", 0.0, 0.1))?;
     let polycube = args.polycube.as_ref().unwrap_or(&args.shape);
-    let formats = Formats::new(polycube, args.format, &meshes)?;
+    let formats = Formats::new(polycube, &args.format, args.options().surface_only, &meshes)?;
     let read = start.elapsed().as_secs_f64();
     let middle = context.stage("read", 0.1, 0.95);
     let about = Failure::in_files(polycube, args.search.guides.as_deref());
@@ -206,11 +213,16 @@ fn write(
     output.add(LABELS, labels.as_bytes())?;
     let polycube = format!("polycube.{}", formats.polycube);
     drop(files);
+    for (name, bytes) in solver_files(result, formats)? {
+        context.tick(1.0)?;
+        output.add(&name, &bytes)?;
+    }
     let seconds = &mut result.report.simplify.seconds;
     seconds.write = elapsed();
     seconds.total += seconds.read + seconds.write;
     let run = RemeshRun { input: &args.files(), options: options.into(), output: &polycube, report: &result.report };
     output.add(REPORT, terminal::to_json(&run)?.as_bytes())?;
-    let stale = output.meshes_left(&MESHES);
+    let mut stale = output.meshes_left(&MESHES);
+    stale.extend(output.left(all_solver_files()));
     Ok(output.publish(&stale, &args.inputs(), context)?)
 }
