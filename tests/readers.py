@@ -2,8 +2,8 @@
 
 For each pair: meshio, gmsh and VTK (through PyVista) read every file with the counts of the report, every volume is
 positive and their sum is the reported one, the scaled Jacobians and the other measures written are those computed here,
-OpenFOAM's checkMesh finds no more than one thing wrong and measures the same where it is installed, and the base
-complex and the patches, traced here from the definition, are as many as reported.
+the groups for solvers are there by name and complete, OpenFOAM's checkMesh finds no more than one thing wrong and
+measures the same, CalculiX reproduces a linear field (both where they are installed), and the base complex and the patches, traced here from the definition, are as many as reported.
 """
 
 import json
@@ -20,7 +20,8 @@ import meshio
 import numpy
 import plyfile
 import pyvista
-from solver_measures import all_measures, write_case
+from patch_test import with_ccx
+from solver_measures import all_measures, write_control
 
 ROOT = pathlib.Path(__file__).resolve().parent.parent
 POLYCUBE = ROOT / "target/release/polycube"
@@ -31,6 +32,8 @@ ARRAYS = ("block_id", "label", "scaled_jacobian", *MEASURES)
 FOAM = {**os.environ, "WM_PROJECT_DIR": "/usr/share/openfoam", "FOAM_SIGFPE": "false"}
 # Of each corner of a hexahedron in VTK's order: the ends of its edges, right-handed seen from inside.
 CORNERS = ((1, 3, 4), (2, 0, 5), (3, 1, 6), (0, 2, 7), (7, 5, 0), (4, 6, 1), (5, 7, 2), (6, 4, 3))
+FORMATS = [word for extension in ("vtk", "msh", "inp", "su2", "foam") for word in ("--format", extension)]
+SIDES = {f"{sign}_{axis}" for sign in ("minus", "plus") for axis in "xyz"}
 FACES = ((0, 3, 2, 1), (4, 5, 6, 7), (0, 1, 5, 4), (1, 2, 6, 5), (2, 3, 7, 6), (3, 0, 4, 7))
 
 
@@ -176,6 +179,55 @@ def with_gmsh(file, kind, count):
         check(worst > 0, f"gmsh: volume {worst} in {file}")
 
 
+def groups(file, dimension):
+    """The numbers of the elements of each physical group by its name."""
+    gmsh.clear()
+    gmsh.merge(str(file))
+    found = {}
+    for _, tag in gmsh.model.getPhysicalGroups(dimension):
+        entities = gmsh.model.getEntitiesForPhysicalGroup(dimension, tag)
+        tags = [numpy.concatenate(gmsh.model.mesh.getElements(dimension, entity)[1]) for entity in entities]
+        found[gmsh.model.getPhysicalName(dimension, tag)] = numpy.concatenate(tags)
+    return found
+
+
+def each_once(name, groups, count):
+    tags = numpy.concatenate(list(groups))
+    check(len(tags) == len(set(tags)) == count, f"{name}: {len(tags)} elements in groups, not {count}")
+
+
+def quads_of_sides(file):
+    """The points and quadrilaterals of each side, as meshio reads them."""
+    mesh = meshio.read(file)
+    quads, tags = mesh.cells_dict["quad"], mesh.cell_data_dict["gmsh:physical"]["quad"]
+    return {side: (mesh.points, quads[tags == mesh.field_data[side][0]]) for side in sorted(SIDES)}
+
+
+def with_solvers(name, folder, report):
+    """Blocks, facets and directions by their names, and linear fields are reproduced."""
+    count, quads = report["hexes"], report["quads"]
+    with_gmsh(folder / "hexes.msh", 5, count)
+    with_gmsh(folder / "hexes.msh", 3, quads)
+    blocks, outside = (groups(folder / "hexes.msh", dimension) for dimension in (3, 2))
+    check(set(blocks) == {f"block_{i}" for i in range(report["after"]["blocks_padded"])}, f"{name}: {sorted(blocks)}")
+    each_once(name, blocks.values(), count)
+    check(SIDES < set(outside), f"{name}: {sorted(outside)}")
+    each_once(name, (outside[side] for side in SIDES), quads)
+    each_once(name, (tags for group, tags in outside.items() if re.fullmatch(r"facet_\d+", group)), quads)
+    for file in ("hexes.msh", "hexes.su2"):
+        read = with_meshio(folder / file, "hexahedron", count)
+        check(sum(len(block.data) for block in read.cells if block.type == "quad") == quads, f"{name}: {file}")
+    with_check_mesh(name, report, folder / "foam")
+    mesh = with_meshio(folder / "hexes.inp", "hexahedron", count)
+    check(SIDES < set(mesh.point_sets) and set(blocks) < set(mesh.cell_sets), f"{name}: sets of hexes.inp")
+    if not shutil.which("ccx"):
+        print("  The patch test is left out: there is no CalculiX.")
+        return
+    inside, through = with_ccx(folder, mesh, quads_of_sides(folder / "hexes.msh"))
+    check(inside < 1e-5, f"{name}: CalculiX is {inside} off a linear field")
+    check(through < 1e-5, f"{name}: the flux through a side is {through} off")
+
+
 def same_measures(name, mesh, cells, report):
     """What is written of each cell and in total is what is computed here."""
     for measure, found in all_measures(mesh.points, cells).items():
@@ -191,25 +243,27 @@ def same_measures(name, mesh, cells, report):
     check(report["determinant"]["min"] >= 0.01, f"{name}: a determinant of {report['determinant']['min']}")
 
 
-def with_check_mesh(name, points, cells, report, case):
-    """OpenFOAM's own opinion, where it is installed."""
+def with_check_mesh(name, report, case):
+    """OpenFOAM's own opinion of its files, where it is installed."""
     if not shutil.which("checkMesh"):
         print("  checkMesh is left out: there is no OpenFOAM.")
         return
-    write_case(case, points, cells)
+    write_control(case)
     command = ["checkMesh", "-allGeometry", "-allTopology", "-case", case]
     said = subprocess.run(command, capture_output=True, text=True, env=FOAM, timeout=600).stdout
     # Of all its checks one may fail: a face in a coarse corner that cuts into tetrahedra badly.
     failed = re.search(r"Failed (\d+) mesh checks", said)
     fine = "Mesh OK." in said or failed and failed[1] == "1" and "Error in face tets" in said
     check(fine, f"{name}: checkMesh says\n{said}")
+    check(f" hexahedra:     {report['hexes']}\n" in said, f"{name}: hexahedra of checkMesh\n{said}")
+    check(f" cell zones:       {report['after']['blocks_padded']}\n" in said, f"{name}: zones of checkMesh\n{said}")
     for measure, pattern in (("non_orthogonality", r"non-orthogonality Max: (\S+)"), ("skewness", r"Max skewness = (\S+)")):
         found = float(re.search(pattern, said)[1])
         check(abs(report[measure]["max"] / found - 1) < 1e-4, f"{name}: {measure} {report[measure]['max']}, checkMesh says {found}")
 
 
 def volume_pair(name, shape, cube, hexes, folder):
-    polycube("remesh", shape, "--polycube", cube, "-o", folder, "--hexes", hexes, "--format", "vtk", "-q", "--max-hausdorff", 5)
+    polycube("remesh", shape, "--polycube", cube, "-o", folder, "--hexes", hexes, *FORMATS, "-q", "--max-hausdorff", 5)
     report = json.loads((folder / "report.json").read_text())
     check(report["inverted"] == 0, f"{name}: inverted hexahedra")
     count, blocks = report["hexes"], report["after"]["blocks_padded"]
@@ -224,7 +278,7 @@ def volume_pair(name, shape, cube, hexes, folder):
         check(len(set(mesh.cell_data["block_id"])) == blocks, f"{name}: blocks in {file}")
         check(set(mesh.cell_data["label"]) <= set(range(-1, 6)), f"{name}: labels in {file}")
         with_meshio(folder / file, "hexahedron", count, ARRAYS)
-    with_check_mesh(name, mesh.points, cells, report, folder / "case")
+    with_solvers(name, folder, report)
     with_vtk(folder / "layout.vtk", blocks, None, ("block_id",))
     found = count_blocks(with_meshio(folder / "hexes.mesh", "hexahedron", count).cells[0].data.tolist())
     check(found == blocks, f"{name}: {found} blocks counted, {blocks} reported")

@@ -1,4 +1,4 @@
-"""What solvers look at in a mesh of hexahedra, computed with numpy from the definitions; the mesh as an OpenFOAM case.
+"""What solvers look at in a mesh of hexahedra, computed with numpy from the definitions.
 
 Used by tests/readers.py. Non-orthogonality and skewness are those of OpenFOAM's primitiveMeshTools.
 """
@@ -118,22 +118,9 @@ def all_measures(points, hexes):
     }
 
 
-def write_case(folder, points, hexes):
-    """The mesh as a case that checkMesh reads."""
-    faces, owner, neighbour = faces_of(hexes)
-    mesh, system = folder / "constant/polyMesh", folder / "system"
-    mesh.mkdir(parents=True)
+def write_control(case):
+    """What checkMesh wants beside the mesh of a case."""
+    system = case / "system"
     system.mkdir()
-
-    def put(name, kind, lines):
-        body = "\n".join((str(len(lines)), "(", *lines, ")", ""))
-        (mesh / name).write_text(HEADER.format(kind, "constant/polyMesh", name) + body)
-
-    put("points", "vectorField", ["(%.17g %.17g %.17g)" % tuple(p) for p in points])
-    put("faces", "faceList", ["4(%d %d %d %d)" % tuple(f) for f in faces])
-    put("owner", "labelList", [str(cell) for cell in owner])
-    put("neighbour", "labelList", [str(cell) for cell in neighbour])
-    patch = f"surface {{ type patch; nFaces {len(faces) - len(neighbour)}; startFace {len(neighbour)}; }}"
-    put("boundary", "polyBoundaryMesh", [patch])
     for name, body in (("controlDict", CONTROL), ("fvSchemes", SCHEMES), ("fvSolution", "")):
         (system / name).write_text(HEADER.format("dictionary", "system", name) + body)
