@@ -15,8 +15,8 @@ class HexFilter final : public Filter {
     QString name() const override { return "Polycube: Hex Remesh to File"; }
     QString python_name() const override { return "generate_polycube_hex_remesh"; }
     QString help() const override {
-        return "Simplifies the polycube of a shape and meshes the solid with hexahedra along the coarse block "
-               "structure. "
+        return "Simplifies the polycube of a shape, which is made where there is none, and meshes the solid with "
+               "hexahedra along the coarse block structure. "
                "MeshLab holds no volumes, so they go to a file: .vtu or .vtk for ParaView, with scaled Jacobian, block "
                "and label of each cell, or .mesh (MEDIT). Their boundary is shown as a new layer, coloured by block. "
                "The log tells the counts, the least scaled Jacobian, and what was not possible. Ten thousand hexahedra "
@@ -43,7 +43,7 @@ int proposed_count(const MeshDocument& document) {
 void HexFilter::add_parameters(const MeshDocument& document, RichParameterList& parameters) const {
     parameters.addParam(host::FileSave("file", proposed_file(document), "Hexahedral mesh (*.vtu *.vtk *.mesh)",
                                        "Write the hexahedra to", "A file whose name ends in .vtu, .vtk or .mesh."));
-    add_pair(document, parameters);
+    add_pair(document, parameters, MADE_OF_ALONE);
     parameters.addParam(RichInt("hexes", proposed_count(document), "Number of hexahedra",
                                 "About how many there shall be, padding included."));
     parameters.addParam(RichInt("padding", 1, "Padding",
@@ -90,9 +90,8 @@ host::Values HexFilter::apply(const Call& call) const {
     const std::string file = checked_file(call.parameters.getSaveFileName("file"));
     const polycube::filter::Settings settings = settings_of(call.parameters);
     const PairLayers layers = chosen_pair(call);
-    const polycube::filter::Pair pair = read_pair(call, layers).pair;
-    const polycube::filter::RemeshedPair meshed = polycube::filter::remesh(pair, settings, call.context);
-    const polycube::Remeshed& result = meshed.result;
+    const Meshed meshed = remesh(call, layers, settings);
+    const polycube::Remeshed& result = meshed.pair.result;
 
     MeshModel& target = layers.target();
     NewLayers added(call.document);
@@ -103,12 +102,12 @@ host::Values HexFilter::apply(const Call& call) const {
     added.keep();
     call.document.setVisible(layers.polycube.id(), false);
     call.document.setVisible(target.id(), false);
-    call.log_all(meshed.log);
+    call.log_all(meshed.pair.log);
     call.log("written to " + file);
 
     host::Values values;
     add_counts(result.simplified.report(), values);
-    values["locked_faces"] = int(pair.locked_faces.size());
+    values["locked_faces"] = meshed.locked;
     values["hexes"] = int(result.report.hexes);
     values["inverted"] = int(result.report.inverted);
     values["min_scaled_jacobian"] = result.report.min_scaled_jacobian.value_or(0.0);

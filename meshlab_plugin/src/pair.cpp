@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <iterator>
+#include <map>
 #include <stdexcept>
 
 #include "layers.h"
@@ -41,9 +42,36 @@ bool shall_lock(const RichParameterList& parameters) {
     return parameters.hasParameter("lock_selected_faces") && parameters.getBool("lock_selected_faces");
 }
 
+/// What to do in MeshLab about a rule that every closed surface follows; null for rules of polycubes.
+const char* remedy_of(const std::string& rule) {
+    static const std::map<std::string, const char*> remedies = {
+        {"bad_face", "Apply Cleaning and Repairing: Remove Zero Area Faces, then Remeshing: Close Holes."},
+        {"open_edge", "Apply Cleaning and Repairing: Merge Close Vertices, then Remeshing: Close Holes."},
+        {"non_manifold_edge", "Apply Cleaning and Repairing: Remove Duplicate Faces, then Repair non Manifold Edges."},
+        {"inconsistent_orientation", "Apply Normals: Re-Orient all faces coherently."},
+        {"non_manifold_vertex", "Apply Cleaning and Repairing: Repair non Manifold Vertices by splitting."},
+    };
+    const auto found = remedies.find(rule);
+    return found == remedies.end() ? nullptr : found->second;
+}
+
+/// Refuses what is no closed surface.
+void check_surface(const std::vector<polycube::Violation>& violations) {
+    if (violations.empty()) return;
+    const polycube::Violation& first = violations.front();
+    const char* remedy = remedy_of(first.rule);
+    if (remedy == nullptr) return;
+    const std::size_t others = violations.size() - 1;
+    throw std::invalid_argument(to_string(first.place) + ": " + first.message +
+                                (others > 0 ? "; " + std::to_string(others) + " more like it. " : ". ") + remedy);
+}
+
 }  // namespace
 
-void add_pair(const MeshDocument& document, RichParameterList& parameters) {
+const char* const MADE_OF_ALONE =
+    "If there is none, choose the same layer in both places: unless that is a polycube, one is made of it.";
+
+void add_pair(const MeshDocument& document, RichParameterList& parameters, const QString& alone) {
     const auto [polycube, shape] = proposed_pair(document);
     parameters.addParam(host::layer_parameter(
         "polycube", polycube, document, "Polycube",
@@ -51,8 +79,7 @@ void add_pair(const MeshDocument& document, RichParameterList& parameters) {
         "be off by 30 degrees."));
     parameters.addParam(host::layer_parameter(
         "shape", shape, document, "Shape",
-        "The layer with the shape that the polycube was deformed from; it has the same vertices and faces. If there "
-        "is none, choose the polycube here, too."));
+        "The layer with the shape that the polycube was deformed from; it has the same vertices and faces. " + alone));
 }
 
 void add_lock(const MeshDocument& document, RichParameterList& parameters) {
@@ -97,6 +124,20 @@ PlainPair read_pair(const Call& call, const PairLayers& layers) {
     return {{std::move(polycube.mesh), std::move(shape.mesh), {}, std::move(locked)},
             std::move(polycube.cell_of_face),
             std::move(shape.cell_of_face)};
+}
+
+Meshed remesh(const Call& call, const PairLayers& layers, const polycube::filter::Settings& settings) {
+    polycube::filter::Pair pair = read_pair(call, layers).pair;
+    try {
+        return {polycube::filter::remesh(pair, settings, call.context), int(pair.locked_faces.size())};
+    } catch (const polycube::Error& error) {
+        const bool none = error.kind() == polycube::ErrorKind::mesh || error.kind() == polycube::ErrorKind::polycube;
+        if (layers.shape != nullptr || !none) throw;
+    }
+    check_surface(polycube::filter::inspect(pair, settings, call.context).checked.violations);
+    if (!pair.locked_faces.empty())
+        call.log("warning: no face is locked, as the polycube is yet to be made of the layer");
+    return {polycube::filter::remesh({{}, std::move(pair.polycube), {}, {}}, settings, call.context), 0};
 }
 
 void add_counts(const polycube::Report& report, host::Values& values) {

@@ -16,9 +16,13 @@ struct PairLayers {
     MeshModel& target() const { return shape != nullptr ? *shape : polycube; }
 };
 
-/// Adds the parameters `polycube` and `shape`. By default these are the current layer and another one with as many
-/// vertices and faces, the polycube being the one that looks along the axes.
-void add_pair(const MeshDocument& document, RichParameterList& parameters);
+/// Adds the parameters `polycube` and `shape`; `alone` says what a layer alone is taken for. By default these are the
+/// current layer and another one with as many vertices and faces, the polycube being the one that looks along the axes.
+void add_pair(const MeshDocument& document, RichParameterList& parameters,
+              const QString& alone = "If there is none, choose the polycube here, too.");
+
+/// What filters that mesh take a layer alone for.
+extern const char* const MADE_OF_ALONE;
 
 /// Adds the parameter `lock_selected_faces`, on where faces of such a layer are selected.
 void add_lock(const MeshDocument& document, RichParameterList& parameters);
@@ -37,6 +41,17 @@ struct PlainPair {
 
 /// Reads the chosen layers: as quadrilaterals where both are such.
 PlainPair read_pair(const Call& call, const PairLayers& layers);
+
+/// What came of meshing.
+struct Meshed {
+    polycube::filter::RemeshedPair pair;
+    /// How many faces were locked.
+    int locked;
+};
+
+/// Meshes the chosen layers. A layer alone that is no polycube is a shape, of which one is made.
+/// @throws std::invalid_argument where none can be made, with what to do in MeshLab.
+Meshed remesh(const Call& call, const PairLayers& layers, const polycube::filter::Settings& settings);
 
 /// Counts before and after for PyMeshLab.
 void add_counts(const polycube::Report& report, host::Values& values);

@@ -41,10 +41,11 @@ polycube::filter::Settings settings_of(const RichParameterList& parameters) {
     return settings;
 }
 
-host::Values values_of(const polycube::Remeshed& result, const polycube::filter::Pair& pair) {
+host::Values values_of(const Meshed& meshed) {
+    const polycube::Remeshed& result = meshed.pair.result;
     host::Values values;
     add_counts(result.simplified.report(), values);
-    values["locked_faces"] = int(pair.locked_faces.size());
+    values["locked_faces"] = meshed.locked;
     values["quads"] = int(result.report.quads);
     values["hausdorff"] = result.report.hausdorff;
     return values;
@@ -63,7 +64,7 @@ class LayoutFilter final : public Filter {
     }
     int changes() const override { return MeshModel::MM_GEOMETRY_AND_TOPOLOGY_CHANGE; }
     void add_parameters(const MeshDocument& document, RichParameterList& parameters) const override {
-        add_pair(document, parameters);
+        add_pair(document, parameters, MADE_OF_ALONE);
         add_choice_by_quality(parameters, UNFOLDED);
         add_lock(document, parameters);
         add_scalar_choice(parameters);
@@ -74,15 +75,15 @@ class LayoutFilter final : public Filter {
 
 host::Values LayoutFilter::apply(const Call& call) const {
     const PairLayers layers = chosen_pair(call);
-    const polycube::filter::Pair pair = read_pair(call, layers).pair;
-    const polycube::filter::RemeshedPair result =
-        polycube::filter::remesh(pair, settings_of(call.parameters), call.context);
-    const polycube::Mesh& patches = result.result.layout.patches;
+    const polycube::filter::Settings settings = settings_of(call.parameters);
+    const Meshed meshed = remesh(call, layers, settings);
+    const polycube::Remeshed& result = meshed.pair.result;
+    const polycube::Mesh& patches = result.layout.patches;
     std::vector<std::uint32_t> patch_id(patches.cell_count());
     std::iota(patch_id.begin(), patch_id.end(), 0);
     add_quad_layer(call, layers, patches, patch_id, " layout");
-    call.log_all(result.log);
-    host::Values values = values_of(result.result, pair);
+    call.log_all(meshed.pair.log);
+    host::Values values = values_of(meshed);
     values["patches"] = int(patches.cell_count());
     return values;
 }
@@ -93,11 +94,11 @@ class QuadFilter final : public Filter {
     QString name() const override { return "Polycube: Quad Remesh"; }
     QString python_name() const override { return "generate_polycube_quad_remesh"; }
     QString help() const override {
-        return "Simplifies the polycube of a shape and meshes the shape's surface with quadrilaterals along the coarse "
-               "layout. The result is a new layer, coloured by patch; it keeps the quadrilaterals the way MeshLab "
-               "does, "
-               "as pairs of triangles with a faux edge, and writes them to formats that can hold them. The log tells "
-               "the counts, the distance from the shape, and what was not possible.";
+        return "Simplifies the polycube of a shape, which is made where there is none, and meshes the shape's surface "
+               "with quadrilaterals along the coarse layout. The result is a new layer, coloured by patch; it keeps "
+               "the quadrilaterals the way MeshLab does, as pairs of triangles with a faux edge, and writes them to "
+               "formats that can hold them. The log tells the counts, the distance from the shape, and what was not "
+               "possible.";
     }
     int changes() const override { return MeshModel::MM_GEOMETRY_AND_TOPOLOGY_CHANGE; }
     void add_parameters(const MeshDocument& document, RichParameterList& parameters) const override;
@@ -105,7 +106,7 @@ class QuadFilter final : public Filter {
 };
 
 void QuadFilter::add_parameters(const MeshDocument& document, RichParameterList& parameters) const {
-    add_pair(document, parameters);
+    add_pair(document, parameters, MADE_OF_ALONE);
     const MeshModel* current = document.mm();
     const double length = current != nullptr ? mean_edge(current->cm) : 1.0;
     const double diagonal = current != nullptr ? current->cm.bbox.Diag() : 1.0;
@@ -120,14 +121,14 @@ void QuadFilter::add_parameters(const MeshDocument& document, RichParameterList&
 
 host::Values QuadFilter::apply(const Call& call) const {
     const PairLayers layers = chosen_pair(call);
-    const polycube::filter::Pair pair = read_pair(call, layers).pair;
     polycube::filter::Settings settings = settings_of(call.parameters);
     settings.options.size =
         polycube::Size{polycube::Size::Kind::edge_length, call.parameters.getAbsPerc("edge_length")};
-    const polycube::filter::RemeshedPair result = polycube::filter::remesh(pair, settings, call.context);
-    add_quad_layer(call, layers, result.result.quads.mesh, result.result.quads.patch_id, " quads");
-    call.log_all(result.log);
-    return values_of(result.result, pair);
+    const Meshed meshed = remesh(call, layers, settings);
+    const polycube::QuadMesh& quads = meshed.pair.result.quads;
+    add_quad_layer(call, layers, quads.mesh, quads.patch_id, " quads");
+    call.log_all(meshed.pair.log);
+    return values_of(meshed);
 }
 
 }  // namespace

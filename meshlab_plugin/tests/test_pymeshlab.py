@@ -388,12 +388,50 @@ def test_a_real_polycube_gives_what_the_command_gives(command, tmp_path):
 
 
 PAIR_FILTERS = sorted(f for f in FILTERS if f not in ("compute_polycube_check", "create_polycube_example"))
+MESHING_FILTERS = [f for f in PAIR_FILTERS if "remesh" in f or "layout" in f]
 
 
-@pytest.mark.parametrize("name", PAIR_FILTERS)
-def test_no_polycube_no_result(name, tmp_path):
-    parameters = {"file": str(tmp_path / "hexes.vtu")} if "hex" in name else {}
-    fails(document(OCTAHEDRON), "face", name, **parameters)
+@pytest.mark.parametrize("name", [f for f in PAIR_FILTERS if f not in MESHING_FILTERS])
+def test_no_polycube_no_result(name):
+    fails(document(OCTAHEDRON), "face", name)
+
+
+def torus(around=18, across=8):
+    """Triangles none of which looks along an axis to begin with."""
+    at = [(2 * numpy.pi * i / around, 2 * numpy.pi * j / across) for i in range(around) for j in range(across)]
+    points = [((3 + numpy.cos(b)) * numpy.cos(a), (3 + numpy.cos(b)) * numpy.sin(a), numpy.sin(b)) for a, b in at]
+    number = lambda i, j: i % around * across + j % across
+    quads = [
+        (number(i, j), number(i + 1, j), number(i + 1, j + 1), number(i, j + 1))
+        for i in range(around)
+        for j in range(across)
+    ]
+    return Mesh(points, [half for a, b, c, d in quads for half in ([a, b, c], [a, c, d])])
+
+
+def test_the_current_layer_alone_is_meshed(command, tmp_path):
+    shape = torus().write(tmp_path / "shape.off")
+    out = command(tmp_path / "out", "remesh", shape, "--surface-only", "--edge-length", 0.5)
+    layers = document(OCTAHEDRON, torus())
+    values = layers.apply_filter("generate_polycube_quad_remesh", edge_length=ml.PureValue(0.5))
+    assert (layers.current_mesh().vertex_matrix() == Mesh.read(out / "quads.obj").points).all()
+    assert values["quads"] == layers.current_mesh().face_number() / 2 and layers.mesh_number() == 3
+    layers = document(torus())
+    values = layers.apply_filter("generate_polycube_hex_remesh", file=str(tmp_path / "hexes.vtu"), hexes=500)
+    assert values["inverted"] == 0 and (tmp_path / "hexes.vtu").stat().st_size > 10_000
+
+
+def test_what_has_no_polycube_is_refused_with_what_to_do(tmp_path):
+    points, faces = torus().points, torus().faces
+    wing = numpy.vstack([points, [[9, 9, 9]]])
+    for mesh, text in (
+        (Mesh(points, faces[1:]), "open here.*2 more like it.*Close Holes"),
+        (Mesh(wing, [*faces, [*faces[0][:2], len(points)]]), "more than two faces.*Repair non Manifold Edges"),
+        (Mesh(points, [faces[0][::-1], *faces[1:]]), "against each other.*Re-Orient"),
+    ):
+        for name in MESHING_FILTERS:
+            parameters = {"file": str(tmp_path / "hexes.vtu")} if "hex" in name else {}
+            fails(document(mesh), text, name, **parameters)
     assert not list(tmp_path.iterdir())
 
 
