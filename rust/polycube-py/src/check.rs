@@ -4,8 +4,9 @@ use crate::errors;
 use crate::mesh::PyMesh;
 use crate::options::Keywords;
 use crate::structure::optional_labels;
+use polycube::Context;
 use polycube::simplify::Input;
-use polycube::validate::{Finding, Subject, validate};
+use polycube::validate::{Finding, Subject, validate, validate_shape};
 use pyo3::prelude::*;
 use pyo3::types::{PyDict, PyTuple};
 
@@ -103,5 +104,22 @@ pub fn check(
     let shape = shape.map(|shape| &*shape.0);
     let input = Input { polycube: &polycube.0, shape, labels: labels.as_deref() };
     let findings = py.detach(|| validate(&input, &tolerance)).map_err(|e| errors::raise(py, &e, None))?;
+    Ok(findings.into_iter().map(PyViolation).collect())
+}
+
+/// Lists everything that keeps a polycube from being made of a shape, or hexahedra from filling it, with place and
+/// remedy: edges that are open or have more than two faces, a surface that looks inward, and faces that cross. Empty
+/// for a shape that is fit to be meshed.
+///
+/// Args:
+///     shape: any mesh; of a volume its surface is looked at.
+///
+/// >>> import polycube
+/// >>> polycube.check_shape(polycube.example("ring")[0])
+/// []
+#[pyfunction]
+pub fn check_shape(py: Python<'_>, shape: &PyMesh) -> PyResult<Vec<PyViolation>> {
+    let findings =
+        py.detach(|| validate_shape(&shape.0, &Context::default())).map_err(|e| errors::raise(py, &e, None))?;
     Ok(findings.into_iter().map(PyViolation).collect())
 }

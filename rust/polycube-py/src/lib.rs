@@ -26,7 +26,7 @@ mod native {
     use super::*;
 
     #[pymodule_export]
-    use crate::check::{PyViolation, check};
+    use crate::check::{PyViolation, check, check_shape};
     #[pymodule_export]
     use crate::hexes::PyHexes;
     #[pymodule_export]

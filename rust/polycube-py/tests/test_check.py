@@ -166,3 +166,16 @@ def test_arrays_of_the_structure_are_read_only(pair):
     for name in ("faces", "label", "facet", "patch_id", "levels", "corner_levels"):
         with pytest.raises(ValueError, match="read-only"):
             getattr(found, name)[0] = 0
+
+
+def test_a_shape_is_checked_for_what_makes_it_a_solid():
+    turned = CUBE_POINTS @ np.array([[0.6, 0.8, 0], [-0.8, 0.6, 0], [0, 0, 1]])
+    assert polycube.check_shape(quads(turned)) == []
+    for kind in ("open_edge", "non_manifold_edge", "inside_out"):
+        found = polycube.check_shape(WRONG[kind][0])
+        assert {(v.kind, v.mesh) for v in found} == {(kind, "shape")}
+    two = quads(np.vstack([CUBE_POINTS, turned + [0.3, 0.2, 0.4]]), np.vstack([CUBE_QUADS, CUBE_QUADS + 8]))
+    crossing = polycube.check_shape(two)
+    assert {v.kind for v in crossing} == {"crossing_faces"}
+    # Two convex solids cross: faces of the one with faces of the other.
+    assert all(v.elements[0] < 6 and "face" in v.message for v in crossing)

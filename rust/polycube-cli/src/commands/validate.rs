@@ -6,9 +6,10 @@ use crate::options::polycube::PolycubeArgs;
 use crate::output::table::short;
 use crate::output::terminal;
 use clap::ValueHint;
+use polycube::Context;
 use polycube::mesh;
 use polycube::simplify::Input;
-use polycube::validate::{Finding, Subject, validate};
+use polycube::validate::{Finding, Subject, validate, validate_shape};
 use serde::Serialize;
 use std::path::PathBuf;
 use std::process::ExitCode;
@@ -30,6 +31,11 @@ pub struct Args {
     /// The shape that the polycube was deformed from: it must have the same vertices and cells, none inverted
     #[arg(long, value_name = "SHAPE", value_hint = ValueHint::FilePath)]
     shape: Option<PathBuf>,
+
+    /// The mesh is no polycube but a shape to make one of: check that it is closed, looks outward and does not cross
+    /// itself
+    #[arg(long, conflicts_with_all = ["shape", "labels"])]
+    as_shape: bool,
 
     /// Print JSON
     #[arg(long)]
@@ -61,6 +67,12 @@ pub fn run(args: &Args) -> Result<ExitCode> {
 
 /// Everything that is wrong. A file that cannot be read as a mesh is a finding; one that cannot be opened, an error.
 fn check(args: &Args) -> Result<Vec<Finding>> {
+    if args.as_shape {
+        return match mesh::read(&args.mesh.polycube) {
+            Ok(shape) => Ok(validate_shape(&shape, &Context::default())?),
+            Err(error) => Ok(vec![Finding::of(error, Subject::Shape)?]),
+        };
+    }
     let (mesh, shape) = match read_meshes(&args.mesh.polycube, args.shape.as_deref()) {
         Ok(meshes) => meshes,
         Err(error) => {

@@ -92,6 +92,23 @@ fn what_is_valid_is_told() {
 }
 
 #[test]
+fn a_shape_is_checked_for_what_makes_it_a_solid() {
+    let sandbox = Sandbox::new();
+    let mut mesh = bent(&cube(2, CellKind::Quads));
+    sandbox.write_mesh("shape.obj", &mesh);
+    assert_eq!(sandbox.ok("validate --as-shape shape.obj"), "shape.obj: valid\n");
+    place(&mut mesh, 0, |p| (p.x, p.y, p.z) = (p.x + 0.7, p.y + 1.1, p.z + 3.0));
+    sandbox.write_mesh("shape.obj", &mesh);
+    let found = broken("--as-shape shape.obj", &sandbox, "crossing_faces");
+    assert_eq!((&found["mesh"], found["at"].as_array().map(Vec::len)), (&"shape".into(), Some(3)));
+    edit(&mut mesh, |quads| quads.truncate(quads.len() - 1));
+    sandbox.write_mesh("shape.obj", &mesh);
+    assert_eq!(broken("--as-shape shape.obj", &sandbox, "open_edge")["mesh"], "shape");
+    let run = sandbox.run("validate --as-shape shape.obj --shape shape.obj");
+    assert!(run.code == 2 && run.err.contains("--as-shape"), "{}", run.err);
+}
+
+#[test]
 fn files_that_hold_no_mesh() {
     let sandbox = Sandbox::new();
     for extension in ["obj", "stl"] {

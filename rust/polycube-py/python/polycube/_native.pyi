@@ -26,6 +26,7 @@ __all__ = [
     "__version__",
     "_panic",
     "check",
+    "check_shape",
     "example",
     "make",
     "read",
@@ -365,6 +366,7 @@ def check(
     angle_tolerance: float = 30.0,
     level_tolerance: float = 0.05,
 ) -> list[Violation]: ...
+def check_shape(shape: Mesh) -> list[Violation]: ...
 def structure(
     polycube: Mesh,
     labels: npt.ArrayLike | None = None,

@@ -13,7 +13,7 @@ mod report;
 pub use report::{MakeReport, MakeSeconds};
 
 use crate::context::Context;
-use crate::error::{Error, ErrorKind, Result};
+use crate::error::{Error, ErrorKind, Place, Result};
 use crate::mesh::{Face, Mesh};
 use crate::structure::Surface;
 use charts::ChartedSurface;
@@ -98,14 +98,23 @@ pub struct Made {
 pub fn make(shape: &Mesh, options: &MakeOptions, context: &Context) -> Result<Made> {
     options.check()?;
     let clock = Instant::now();
-    let triangles: Vec<[u32; 3]> = surface(shape)?.faces().iter().flat_map(Face::triangles).collect();
-    let mut seconds = MakeSeconds::default();
-    let candidates = draw(shape, &triangles, options, &context.stage("loops", 0.0, 0.5))?;
-    seconds.structure = clock.elapsed().as_secs_f64();
-    let embedded = embed_best(&candidates, &context.stage("embed", 0.5, 1.0))?;
-    seconds.total = clock.elapsed().as_secs_f64();
-    seconds.embedding = seconds.total - seconds.structure;
-    finish(shape, embedded, seconds)
+    let surface = surface(shape)?;
+    let triangles: Vec<[u32; 3]> = surface.faces().iter().flat_map(Face::triangles).collect();
+    let named = |error| of_face(error, &surface);
+    let candidates = draw(shape, &triangles, options, &context.stage("loops", 0.0, 0.5)).map_err(named)?;
+    let structure = clock.elapsed().as_secs_f64();
+    let embedded = embed_best(&candidates, &context.stage("embed", 0.5, 1.0)).map_err(named)?;
+    let total = clock.elapsed().as_secs_f64();
+    finish(shape, embedded, MakeSeconds { structure, embedding: total - structure, total })
+}
+
+/// An error about a triangle as one about the face that it is part of.
+fn of_face(mut error: Error, surface: &Surface) -> Error {
+    if let Some(Place::Face(triangle)) = error.place {
+        let mut owners = (0..).zip(surface.faces()).flat_map(|(i, face)| face.triangles().map(move |_| i));
+        error.place = owners.nth(triangle as usize).map(Place::Face);
+    }
+    error
 }
 
 /// Makes the polycube that the labels of a surface stand for, 0 to 5 for +X −X +Y −Y +Z −Z for each face: what programs
@@ -134,9 +143,11 @@ pub fn make(shape: &Mesh, options: &MakeOptions, context: &Context) -> Result<Ma
 pub fn from_labels(shape: &Mesh, labels: &[i8], context: &Context) -> Result<Made> {
     let clock = Instant::now();
     context.tick(0.0)?;
-    let (charts, levels) = labelled::read(shape, surface(shape)?, labels)?;
+    let surface = surface(shape)?;
+    let (charts, levels) = labelled::read(shape, surface.clone(), labels)?;
     let structure = clock.elapsed().as_secs_f64();
-    let embedded = embedding::embed(&charts, levels, &context.stage("embed", 0.1, 1.0))?;
+    let embedded = embedding::embed(&charts, levels, &context.stage("embed", 0.1, 1.0));
+    let embedded = embedded.map_err(|error| of_face(error, &surface))?;
     let total = clock.elapsed().as_secs_f64();
     finish(shape, embedded, MakeSeconds { structure, embedding: total - structure, total })
 }
@@ -186,11 +197,13 @@ fn finish(shape: &Mesh, embedded: Embedded, seconds: MakeSeconds) -> Result<Made
     Ok(Made { shape: refined, polycube, labels, report })
 }
 
-/// The faces of a closed surface.
+/// The faces of a closed surface that looks outward.
 fn surface(shape: &Mesh) -> Result<Surface> {
     if shape.cells().is_volume() {
         let message = format!("a polycube is made of a surface, and this mesh has {}", shape.cells().kind());
         return Err(Error::new(ErrorKind::Unsupported, message).remedy("give the boundary of the mesh, as triangles"));
     }
-    Surface::new(shape.cells().boundary()?, shape.points().len()).map_err(|mut all| Error::from(all.swap_remove(0)))
+    let surface = Surface::new(shape.cells().boundary()?, shape.points().len());
+    let surface = surface.map_err(|mut all| Error::from(all.swap_remove(0)))?;
+    if surface.volume(shape.points()) < 0.0 { Err(embedding::looks_inward(0)) } else { Ok(surface) }
 }

@@ -2,10 +2,11 @@
 //!
 //! [`scaled_jacobians`], [`Quality`] and [`CellMeasures`] say how good cells are, [`flipped`] what a map turned over,
 //! [`distortion`] how far one mesh is from a similarity of another, [`hausdorff`] how far a mesh is from a shape, and
-//! `base_complex` finds the blocks of any hexahedral mesh.
+//! `base_complex` finds the blocks of any hexahedral mesh, and `crossings` where a surface crosses itself.
 
 mod base_complex;
 mod cells;
+mod crossings;
 mod distortion;
 mod faces;
 mod flipped;
@@ -15,6 +16,7 @@ mod soundness;
 
 pub(crate) use base_complex::base_complex;
 pub use cells::{CellMeasures, MeasureSummary, Spread};
+pub(crate) use crossings::crossings;
 pub use distortion::{Distortion, distortion};
 pub use flipped::{Flipped, flipped};
 pub use hausdorff::hausdorff;

@@ -23,6 +23,8 @@ pub(super) struct ChartedSurface {
     pub(super) points: Vec<Point>,
     /// The triangles, in the order of those of the shape that they are part of.
     pub(super) triangles: Vec<[u32; 3]>,
+    /// The triangle of the shape that each is part of.
+    pub(super) origins: Vec<u32>,
     /// The chart of each triangle.
     pub(super) chart: Vec<u32>,
     /// The label of each chart, 0 to 5.
@@ -104,7 +106,8 @@ impl Traced {
         let mut order: Vec<usize> = (0..mesh.triangles.len()).filter(|&t| !mesh.triangles[t].is_gone()).collect();
         order.sort_by_key(|&t| (mesh.triangles[t].origin, t));
         let triangles = order.iter().map(|&t| mesh.triangles[t].vertices.map(|v| number[v as usize])).collect();
+        let origins = order.iter().map(|&t| mesh.triangles[t].origin).collect();
         let chart = order.iter().map(|&t| mesh.triangles[t].patch).collect();
-        ChartedSurface { points, triangles, chart, labels, crossings }
+        ChartedSurface { points, triangles, origins, chart, labels, crossings }
     }
 }

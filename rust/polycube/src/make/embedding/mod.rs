@@ -7,7 +7,7 @@ mod surface_map;
 
 use super::charts::ChartedSurface;
 use crate::context::Context;
-use crate::error::{Error, ErrorKind, Result};
+use crate::error::{Error, ErrorKind, Place, Result};
 use crate::mesh::{Cells, Mesh};
 use crate::remesh::Refined;
 use crate::structure::{Arrangement, Conflict, Polycube, Tolerance};
@@ -78,7 +78,7 @@ impl<'a> Embedding<'a> {
         for added in 0..MOST_SEPARATIONS {
             context.tick(added as f64 / MOST_SEPARATIONS as f64)?;
             let found = conflicts(&polycube);
-            let Some(first) = found.first() else { return outward(mesh, polycube) };
+            let Some(first) = found.first() else { return self.outward(mesh, polycube) };
             if !self.separate(&polycube, &found, on_the_shape) {
                 break;
             }
@@ -90,7 +90,7 @@ impl<'a> Embedding<'a> {
         }
         match conflicts(&polycube).first() {
             Some(conflict) => Err(self.stuck(&polycube, conflict)),
-            None => outward(mesh, polycube),
+            None => self.outward(mesh, polycube),
         }
     }
 
@@ -149,11 +149,24 @@ impl<'a> Embedding<'a> {
         adds
     }
 
+    /// A triangle of the shape in a facet.
+    fn triangle_in(&self, polycube: &Polycube, is_meant: impl Fn(u32) -> bool) -> u32 {
+        let found = polycube.facet_of_face.iter().position(|&facet| is_meant(facet));
+        self.charts.origins[found.unwrap_or(0)]
+    }
+
+    /// The same if every part of it looks outward, and hollows into the solid around them.
+    fn outward(&self, mesh: Mesh, polycube: Polycube) -> Result<(Mesh, Polycube)> {
+        match Arrangement::new(&polycube.structure, &polycube.placement).inside_out().first() {
+            Some(&inward) => Err(looks_inward(self.triangle_in(&polycube, |facet| facet == inward))),
+            None => Ok((mesh, polycube)),
+        }
+    }
+
     /// The error for parts that no order of levels keeps apart, with a face of one of them.
     fn stuck(&self, polycube: &Polycube, conflict: &Conflict) -> Error {
-        let face = polycube.facet_of_face.iter().position(|f| conflict.facets.contains(f)).unwrap_or(0);
         Error::new(ErrorKind::Polycube, "parts of the polycube would lie in one place")
-            .at(crate::Place::Face(face as u32))
+            .at(Place::Face(self.triangle_in(polycube, |facet| conflict.facets.contains(&facet))))
             .remedy("ask for more detail, so that the polycube follows the shape more closely, or turn the shape")
     }
 }
@@ -162,13 +175,9 @@ fn conflicts(polycube: &Polycube) -> Vec<Conflict> {
     Arrangement::new(&polycube.structure, &polycube.placement).conflicts()
 }
 
-/// The same if every part of it looks outward, and hollows into the solid around them.
-fn outward(mesh: Mesh, polycube: Polycube) -> Result<(Mesh, Polycube)> {
-    let Some(&facet) = Arrangement::new(&polycube.structure, &polycube.placement).inside_out().first() else {
-        return Ok((mesh, polycube));
-    };
-    let face = polycube.facet_of_face.iter().position(|&f| f == facet).unwrap_or(0);
-    Err(Error::new(ErrorKind::Mesh, "this part of the surface looks inward")
-        .at(crate::Place::Face(face as u32))
-        .remedy("turn the faces of this part around"))
+/// The error for a part of a surface that has its outside within.
+pub(super) fn looks_inward(face: u32) -> Error {
+    Error::new(ErrorKind::Mesh, "this part of the surface looks inward")
+        .at(Place::Face(face))
+        .remedy("turn the faces of this part around")
 }

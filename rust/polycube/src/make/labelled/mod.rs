@@ -101,9 +101,10 @@ fn on_a_circle(order: &[([u32; 2], usize)]) -> Option<usize> {
 fn charts(shape: &Mesh, labelling: &Labelling) -> ChartedSurface {
     let faces = labelling.surface.faces().iter().zip(&labelling.chart_of_face);
     let parts = faces.flat_map(|(face, &chart)| face.triangles().map(move |t| (t, chart)));
-    let (triangles, chart) = parts.unzip();
+    let (triangles, chart): (Vec<_>, _) = parts.unzip();
     ChartedSurface {
         points: shape.points().to_vec(),
+        origins: (0..triangles.len() as u32).collect(),
         triangles,
         chart,
         labels: labelling.labels.iter().map(|l| l.index() as u8).collect(),
