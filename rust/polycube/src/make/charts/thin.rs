@@ -6,9 +6,6 @@ use nalgebra::Vector3;
 
 /// Passes over the vertices; later ones find little.
 const PASSES: usize = 6;
-/// Most triangles at a vertex after a removal in the first pass; each later one allows twice as many. Without this, few
-/// vertices of large flat faces end up with thousands of triangles, each of which every removal around them looks at.
-const VALENCE: usize = 16;
 /// A triangle of less area than this part of its longest side squared is too thin to be made.
 const THIN: f64 = 1e-3;
 
@@ -16,10 +13,12 @@ const THIN: f64 = 1e-3;
 /// triangles of the shape, in which `normals` stand up.
 pub(super) fn thin_out(charts: &mut Traced, kept: usize, normals: &[Vector3<f64>]) {
     let mut thinner = Thinner { mesh: &mut charts.mesh, normals };
-    for pass in 0..PASSES {
+    for _ in 0..PASSES {
         let last = thinner.mesh.points.len() as u32;
-        let most = VALENCE << pass;
-        (kept as u32..last).rev().for_each(|v| thinner.remove(v, most));
+        let removed = (kept as u32..last).rev().filter(|&v| thinner.remove(v)).count();
+        if removed == 0 {
+            break;
+        }
     }
 }
 
@@ -29,16 +28,12 @@ struct Thinner<'a> {
 }
 
 impl Thinner<'_> {
-    /// Moves a vertex into the best of its neighbours, if it may go into any without giving it more than `most`
-    /// triangles.
-    fn remove(&mut self, v: u32, most: usize) {
+    /// Moves a vertex into the best of its neighbours, if it may go into any.
+    fn remove(&mut self, v: u32) -> bool {
         if self.mesh.at[v as usize] == NONE {
-            return;
+            return false;
         }
-        let fan: Vec<(u32, usize)> = self.mesh.fan(v).take(most + 1).collect();
-        if fan.len() > most {
-            return;
-        }
+        let fan: Vec<(u32, usize)> = self.mesh.fan(v).collect();
         let on_side = |&(t, k): &(u32, usize)| {
             let triangle = &self.mesh.triangles[t as usize];
             triangle.origin != self.mesh.triangles[triangle.neighbours[k] as usize].origin
@@ -47,11 +42,7 @@ impl Thinner<'_> {
         let borders = fan.iter().filter(|s| self.is_border(s)).count();
         let mut best = None;
         for side in &fan {
-            if creases > 0 && !on_side(side)
-                || !self.has_room(side, fan.len(), most)
-                || !self.keeps_charts(side, borders)
-                || !self.is_simple(v, side, &fan)
-            {
+            if creases > 0 && !on_side(side) || !self.keeps_charts(side, borders) || !self.is_simple(v, side, &fan) {
                 continue;
             }
             let quality = self.quality(v, side, &fan);
@@ -59,15 +50,7 @@ impl Thinner<'_> {
                 best = Some((quality, *side));
             }
         }
-        if let Some((_, (t, k))) = best {
-            self.mesh.collapse(t, k);
-        }
-    }
-
-    /// Whether the end of a side has no more than `most` triangles once its start, which has `own`, moved there.
-    fn has_room(&self, side: &(u32, usize), own: usize, most: usize) -> bool {
-        let end = self.mesh.end(side.0, side.1);
-        self.mesh.fan(end).take(most + 5).count() + own <= most + 4
+        best.map(|(_, (t, k))| self.mesh.collapse(t, k)).is_some()
     }
 
     fn is_border(&self, &(t, k): &(u32, usize)) -> bool {
