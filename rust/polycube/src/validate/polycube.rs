@@ -33,7 +33,7 @@ use crate::structure::{Polycube, Tolerance, Violation};
 /// ```
 ///
 /// # Errors
-/// [`ErrorKind::Option`] for a tolerance out of its range.
+/// [`ErrorKind::Option`](crate::ErrorKind::Option) for a tolerance out of its range.
 pub fn validate(input: &Input, tolerance: &Tolerance) -> Result<Vec<Finding>> {
     tolerance.check()?;
     let repaired = input.polycube.cells().is_volume().then(|| repair(input)).flatten();

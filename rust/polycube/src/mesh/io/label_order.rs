@@ -4,7 +4,7 @@ use crate::error::{Error, ErrorKind, Place, Result};
 use std::fmt;
 use std::str::FromStr;
 
-/// Six numbers in a row, from [`first`](Self::first) on, and the directions that they stand for.
+/// Six numbers in a row, from its first on, and the directions that they stand for.
 ///
 /// It is written as the directions, after the first number and a colon where that is not 0:
 ///
