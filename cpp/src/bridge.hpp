@@ -100,7 +100,7 @@ Counts counts(const bridge::CountsData& data) noexcept;
 bridge::ToleranceData tolerance(const Tolerance& tolerance) noexcept;
 Distortion distortion(const bridge::DistortionData& data) noexcept;
 bridge::OptionsData options(const Options& options);
-bridge::MakeOptionsData options(const MakeOptions& options) noexcept;
+bridge::MakeOptionsData options(const MakeOptions& options);
 Made made(const bridge::MadeData& data);
 Simplified simplified(rust::Box<bridge::Simplified> core);
 

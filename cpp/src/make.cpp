@@ -1,3 +1,5 @@
+#include <algorithm>
+#include <iterator>
 #include <polycube/make.hpp>
 
 #include "bridge.hpp"
@@ -5,8 +7,11 @@
 namespace polycube {
 namespace internal {
 
-bridge::MakeOptionsData options(const MakeOptions& options) noexcept {
-    return {options.detail, options.corners.has_value(), options.corners.value_or(0)};
+bridge::MakeOptionsData options(const MakeOptions& options) {
+    bridge::MakeOptionsData data = {options.detail, options.corners.has_value(), options.corners.value_or(0),
+                                    options.labels.has_value(), {}};
+    if (options.labels) std::copy(options.labels->begin(), options.labels->end(), std::back_inserter(data.labels));
+    return data;
 }
 
 Made made(const bridge::MadeData& data) {

@@ -104,10 +104,6 @@ Remeshed remesh(const Input& input, const RemeshOptions& settings, const Context
 }
 
 Remeshed remesh(const Mesh& shape, const RemeshOptions& settings, const Context& context) {
-    if (!settings.simplify.guides.fixed_faces.empty()) {
-        throw Error(ErrorKind::option, "faces cannot be locked before there is a polycube",
-                    "make() one first, and lock faces of that");
-    }
     const bridge::MakeOptionsData making = internal::options(settings.make);
     const bridge::RemeshOptionsData data = options(settings);
     const auto work = [&](const auto& listener) {

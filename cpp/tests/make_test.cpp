@@ -56,6 +56,7 @@ TEST_CASE("the defaults of making are those of the core") {
     const polycube::MakeOptions own;
     CHECK(core.detail == own.detail);
     CHECK(core.has_corners == own.corners.has_value());
+    CHECK(core.has_labels == own.labels.has_value());
 }
 
 TEST_CASE("a polycube is made of a torus") {
@@ -86,6 +87,17 @@ TEST_CASE("how closely a polycube follows its shape") {
     CHECK(data.corners == 12);
     options.detail = 2.0;
     CHECK(error_of([&] { polycube::make(torus(), options); }).kind() == ErrorKind::option);
+}
+
+TEST_CASE("a labelled shape gets the polycube of its labels") {
+    polycube::MakeOptions options;
+    options.labels = made().labels;
+    const Made again = polycube::make(made().shape, options);
+    CHECK(polycube::check(again.input()).valid());
+    CHECK(again.report.corners == made().report.corners);
+    CHECK(again.report.facets == made().report.facets);
+    options.labels->pop_back();
+    CHECK(error_of([&] { polycube::make(made().shape, options); }).kind() == ErrorKind::mismatch);
 }
 
 TEST_CASE("a shape alone is meshed like the polycube that is made of it") {

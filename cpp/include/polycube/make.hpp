@@ -16,6 +16,9 @@ struct MakeOptions {
     double detail = 0.5;
     /// Take corners away until no more than these are left, as far as the shape allows, whatever `detail` says.
     std::optional<std::uint64_t> corners;
+    /// One label for each face of the shape, 0 to 5 for +X -X +Y -Y +Z -Z, as programs that label shapes leave them.
+    /// Their charts become the facets as they are; `detail` and `corners` then have no effect.
+    std::optional<std::vector<std::int8_t>> labels;
 };
 
 /// What was made and how good it is. `Made::report_json` has all of it and more.
@@ -68,7 +71,8 @@ struct Made {
 /// @endcode
 ///
 /// @throws Error mesh (open, not manifold, not oriented, or inward, with the element), unsupported (a volume),
-/// polycube (no structure was found, or its parts cannot be kept apart), option (detail out of range), cancelled.
+/// polycube (no structure was found, the labels are not those of a polycube, or its parts cannot be kept apart),
+/// mismatch (labels that do not fit the faces), option (detail out of range), cancelled.
 Made make(const Mesh& shape, const MakeOptions& options = {}, const Context& context = {});
 
 }  // namespace polycube

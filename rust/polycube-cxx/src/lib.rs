@@ -123,6 +123,8 @@ mod ffi {
         detail: f64,
         has_corners: bool,
         corners: u64,
+        has_labels: bool,
+        labels: Vec<i8>,
     }
 
     struct RemeshOptionsData {

@@ -10,11 +10,7 @@ use crate::run::run;
 use polycube::make;
 use polycube::measure::CellMeasures;
 use polycube::remesh::{self as core, Hexes, Layout, Quads, RemeshOptions, RemeshReport, Remeshed, Size};
-use polycube::simplify::Input;
 use polycube::{Error, ErrorKind};
-
-/// The part of all that making a polycube takes in the progress that is told.
-const MAKING: f64 = 0.1;
 
 /// See `polycube::remesh::remesh`.
 pub fn remesh(input: &InputView, data: &RemeshOptionsData, observer: &Observer) -> Result<RemeshedData> {
@@ -35,12 +31,7 @@ pub fn remesh_shape(
     observer: &Observer,
 ) -> Result<RemeshedShapeData> {
     let (shape, options) = guard(|| Ok((mesh(shape)?, remesh_options(data)?)))?;
-    let (pair, result) = run(observer, |context| {
-        let pair = make::make(&shape, &make_options(making), &context.stage("make", 0.0, MAKING))?;
-        let input = Input { polycube: &pair.polycube, shape: Some(&pair.shape), labels: Some(&pair.labels) };
-        let result = core::remesh(&input, &options, &context.stage("remesh", MAKING, 1.0))?;
-        Ok((pair, result))
-    })?;
+    let (pair, result) = run(observer, |context| make::remesh(&shape, &make_options(making), &options, context))?;
     guard(|| Ok(RemeshedShapeData { made: made(&pair)?, remeshed: remeshed(result)? }))
 }
 

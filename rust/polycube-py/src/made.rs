@@ -7,8 +7,7 @@ use crate::report::to_dict;
 use crate::simplified::Source;
 use crate::work::{Failure, Listener};
 use polycube::Context;
-use polycube::make::{Made, MakeOptions, MakeReport, from_labels, make as run};
-use polycube::mesh::Mesh;
+use polycube::make::{Made, MakeReport, make as run};
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
 use std::sync::Arc;
@@ -81,36 +80,6 @@ impl PyMade {
     }
 }
 
-/// What a polycube is made by.
-pub enum Making {
-    /// A search for its structure.
-    Search(MakeOptions),
-    /// Labels of the shape's faces.
-    Labels(Vec<i8>),
-}
-
-impl Making {
-    /// The arguments that say how a polycube is made.
-    pub fn new(keywords: &Keywords<'_>) -> PyResult<Self> {
-        let Some(labels) = keywords.labels()? else { return Ok(Self::Search(keywords.make()?)) };
-        keywords.refuse(
-            &["detail", "corners"],
-            "the labels say which facets there are",
-            "leave it out, or the labels",
-        )?;
-        Ok(Self::Labels(labels))
-    }
-
-    /// Makes a polycube of `shape`; the place of an error is one on it.
-    pub fn make(&self, shape: &Mesh, context: &Context) -> Result<PyMade, Failure> {
-        let made = match self {
-            Self::Search(options) => run(shape, options, context),
-            Self::Labels(labels) => from_labels(shape, labels, context),
-        };
-        made.map(PyMade::from).map_err(|e| Failure::new(e, shape))
-    }
-}
-
 /// Makes a polycube of a shape: a closed surface of triangles or quadrilaterals, of any genus and any number of parts.
 ///
 /// The polycube is valid and does not touch itself, or an error says at which face and why not. Where its map is folded
@@ -163,8 +132,8 @@ pub fn task(
     options: Option<&Bound<'_, PyDict>>,
 ) -> PyResult<impl FnOnce(&Context) -> Result<PyMade, Failure> + Send + 'static> {
     let keywords = Keywords::new(py, "make", options)?;
-    let making = Making::new(&keywords)?;
+    let options = keywords.make()?;
     keywords.finish()?;
     let shape = Arc::clone(&shape.0);
-    Ok(move |context: &Context| making.make(&shape, context))
+    Ok(move |context: &Context| run(&shape, &options, context).map(PyMade::from).map_err(|e| Failure::new(e, &shape)))
 }

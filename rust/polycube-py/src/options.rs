@@ -97,11 +97,15 @@ impl<'py> Keywords<'py> {
         Ok(())
     }
 
-    /// Takes how a polycube is made.
+    /// Takes how a polycube is made of a shape.
     pub fn make(&self) -> PyResult<MakeOptions> {
-        let default = MakeOptions::default();
-        let options =
-            MakeOptions { detail: self.take("detail")?.unwrap_or(default.detail), corners: self.take("corners")? };
+        if let Some(labels) = self.labels()? {
+            let reason = "the labels say which facets there are";
+            self.refuse(&["detail", "corners"], reason, "leave it out, or the labels")?;
+            return Ok(MakeOptions { labels: Some(labels), ..MakeOptions::default() });
+        }
+        let detail = self.take("detail")?.unwrap_or(MakeOptions::default().detail);
+        let options = MakeOptions { detail, corners: self.take("corners")?, labels: None };
         options.check().map_err(|e| errors::raise(self.py(), &e, None))?;
         Ok(options)
     }

@@ -2,7 +2,7 @@
 
 use crate::hexes::PyHexes;
 use crate::layout::PyLayout;
-use crate::made::{Making, PyMade};
+use crate::made::PyMade;
 use crate::mesh::PyMesh;
 use crate::options::Keywords;
 use crate::quads::PyQuads;
@@ -10,14 +10,12 @@ use crate::report::to_dict;
 use crate::simplified::{PySimplified, Source};
 use crate::work::{Failure, Listener};
 use polycube::Context;
+use polycube::make::{self, MakeOptions};
 use polycube::mesh::Mesh;
 use polycube::remesh::{RemeshOptions, RemeshReport, Remeshed, remesh as run};
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
 use std::sync::Arc;
-
-/// The part of all that making a polycube takes in the progress that is told.
-const MAKING: f64 = 0.1;
 
 /// Meshes of a shape and the block structure that they have.
 #[pyclass(frozen, module = "polycube", name = "Remeshed")]
@@ -110,7 +108,7 @@ enum Start {
     /// A shape and its polycube.
     Pair(Source),
     /// A shape of which a polycube is to be made.
-    Shape(Arc<Mesh>, Making),
+    Shape(Arc<Mesh>, MakeOptions),
 }
 
 impl Start {
@@ -119,20 +117,22 @@ impl Start {
             keywords.refuse(&["detail", "corners"], "a polycube is given", "leave it out, or the polycube")?;
             return Ok(Self::Pair(Source::new(polycube, Some(shape), keywords)?));
         }
-        Ok(Self::Shape(Arc::clone(&shape.0), Making::new(keywords)?))
+        Ok(Self::Shape(Arc::clone(&shape.0), keywords.make()?))
     }
 
     fn remesh(self, options: &RemeshOptions, context: &Context) -> Result<PyRemeshed, Failure> {
-        let (source, made, from) = match self {
-            Self::Pair(source) => (source, None, 0.0),
-            Self::Shape(shape, making) => {
-                let made = making.make(&shape, &context.stage("make", 0.0, MAKING))?;
-                (made.source(), Some(made), MAKING)
+        match self {
+            Self::Pair(source) => {
+                let result = run(&source.input(), options, context).map_err(|e| source.failure(e))?;
+                Ok(PyRemeshed::new(result, source, None))
             }
-        };
-        let middle = context.stage("remesh", from, 1.0);
-        let result = run(&source.input(), options, &middle).map_err(|e| source.failure(e))?;
-        Ok(PyRemeshed::new(result, source, made))
+            Self::Shape(shape, making) => {
+                let (made, result) =
+                    make::remesh(&shape, &making, options, context).map_err(|e| Failure::new(e, &shape))?;
+                let made = PyMade::from(made);
+                Ok(PyRemeshed::new(result, made.source(), Some(made)))
+            }
+        }
     }
 }
 

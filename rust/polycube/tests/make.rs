@@ -5,7 +5,7 @@ mod common;
 use common::{cases, coarse, data, dense};
 use nalgebra::Matrix2;
 use polycube::generate::{Cuboid, Example, Voxels, example, random_polycube};
-use polycube::make::{Made, MakeOptions, from_labels, make};
+use polycube::make::{Made, MakeOptions, make};
 use polycube::mesh::{CellKind, Cells, Mesh, Point, Simplices, read, write_bytes};
 use polycube::structure::{Polycube, Tolerance};
 use polycube::{Context, ErrorKind, Place};
@@ -174,13 +174,13 @@ fn what_is_no_closed_surface_is_refused_with_its_place() {
     assert_eq!(refused(&inward).kind, ErrorKind::Mesh);
     let (_, volume) = example(Example::SteppedL, 1, CellKind::Tetrahedra).unwrap();
     assert_eq!(refused(&volume).kind, ErrorKind::Unsupported);
-    let options = MakeOptions { detail: f64::NAN, corners: None };
+    let options = MakeOptions { detail: f64::NAN, ..MakeOptions::default() };
     assert_eq!(make(&shape, &options, &Context::default()).unwrap_err().option, Some("detail"));
 }
 
 /// The polycube of a labelled shape.
 fn labelled(shape: &Mesh, labels: &[i8]) -> polycube::Result<Made> {
-    from_labels(shape, labels, &Context::default())
+    make(shape, &MakeOptions { labels: Some(labels.to_vec()), ..MakeOptions::default() }, &Context::default())
 }
 
 #[test]

@@ -1,7 +1,7 @@
 //! `polycube make`.
 
 use crate::failure::{Failure, INFERIOR, Result};
-use crate::input::meshes::{made, read_labels};
+use crate::input::meshes::MeshFiles;
 use crate::options::format::format;
 use crate::options::make::MakeArgs;
 use crate::options::polycube::LabelsArg;
@@ -11,7 +11,7 @@ use crate::output::progress::Progress;
 use crate::output::report::MakeRun;
 use crate::output::terminal;
 use clap::ValueHint;
-use polycube::make::Made;
+use polycube::make::{Made, make};
 use polycube::mesh::{self, CellKind, Format};
 use polycube::{Context, Error, ErrorKind};
 use std::path::{Path, PathBuf};
@@ -93,16 +93,13 @@ pub fn run(args: &Args) -> Result<ExitCode> {
 
 fn work(args: &Args, context: &Context) -> Result<Made> {
     context.stage("read", 0.0, 0.05).tick(0.0)?;
-    let shape = mesh::read(&args.shape).map_err(Failure::in_reading)?;
+    let MeshFiles { polycube: shape, labels, .. } = MeshFiles::read(&args.shape, None, args.labels.given())?;
     let format = args.format.map_or_else(|| Format::from_path(&args.shape), Ok)?;
     if !format.holds(CellKind::Triangles) {
         return Err(Error::new(ErrorKind::Option, format!("a .{format} file cannot hold triangles")).into());
     }
-    let about = Failure::in_file(&args.shape);
     let middle = context.stage("make", 0.05, 0.95);
-    shape.cells().boundary().map_err(&about)?;
-    let labels = read_labels(args.labels.given(), &args.shape, &shape)?;
-    let made = made(&shape, labels.as_deref(), &args.make.get(), &middle).map_err(&about)?;
+    let made = make(&shape, &args.make.get(labels), &middle).map_err(Failure::in_file(&args.shape))?;
     write(args, &made, format, &context.stage("write", 0.95, 1.0))?;
     Ok(made)
 }
@@ -119,7 +116,7 @@ fn write(args: &Args, made: &Made, format: Format, context: &Context) -> Result<
     let run = MakeRun {
         input: &name(&args.shape),
         labels: args.labels.file.as_ref().map(name),
-        options: args.labels.file.is_none().then(|| args.make.get()),
+        options: args.labels.file.is_none().then(|| args.make.get(None)),
         report: &made.report,
     };
     output.add(REPORT, terminal::to_json(&run)?.as_bytes())?;

@@ -1,10 +1,9 @@
 //! The meshes and labels that a subcommand works on.
 
 use crate::failure::{Failure, Result};
-use polycube::make::{Made, MakeOptions, from_labels, make};
 use polycube::mesh::{self, LabelOrder, Mesh};
 use polycube::simplify::Input;
-use polycube::{Context, Error, ErrorKind};
+use polycube::{Error, ErrorKind};
 use std::path::Path;
 
 /// A file of labels and what its numbers stand for.
@@ -33,25 +32,10 @@ impl MeshFiles {
         Ok(Self { polycube: mesh, shape, labels })
     }
 
-    /// Reads a shape and makes its polycube, that of its labels if it has any.
-    pub fn make(shape: &Path, labels: Option<LabelFile>, options: &MakeOptions, context: &Context) -> Result<Self> {
-        let mesh = mesh::read(shape).map_err(Failure::in_reading)?;
-        mesh.cells().boundary().map_err(Failure::in_file(shape))?;
-        let labels = read_labels(labels, shape, &mesh)?;
-        let Made { shape, polycube, labels, .. } =
-            made(&mesh, labels.as_deref(), options, context).map_err(Failure::in_file(shape))?;
-        Ok(Self { polycube, shape: Some(shape), labels: Some(labels) })
-    }
-
     /// What the library takes.
     pub fn input(&self) -> Input<'_> {
         Input { polycube: &self.polycube, shape: self.shape.as_ref(), labels: self.labels.as_deref() }
     }
-}
-
-/// The polycube of a shape, that of its labels if it has any.
-pub fn made(shape: &Mesh, labels: Option<&[i8]>, options: &MakeOptions, context: &Context) -> polycube::Result<Made> {
-    labels.map_or_else(|| make(shape, options, context), |labels| from_labels(shape, labels, context))
 }
 
 /// Reads the polycube and, if there is one, the shape with the same connectivity.

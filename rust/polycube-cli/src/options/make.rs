@@ -17,8 +17,8 @@ pub struct MakeArgs {
 }
 
 impl MakeArgs {
-    /// What the library takes.
-    pub fn get(self) -> MakeOptions {
-        MakeOptions { detail: self.detail, corners: self.corners }
+    /// What the library takes, with the labels of the shape if it has any.
+    pub fn get(self, labels: Option<Vec<i8>>) -> MakeOptions {
+        MakeOptions { detail: self.detail, corners: self.corners, labels }
     }
 }

@@ -1,6 +1,6 @@
 //! A polycube of a plain shape: any closed, oriented, manifold surface, of any genus and any number of parts.
 //!
-//! [`make()`] is the way in. It goes from structure to place: `loops` finds few closed curves of three kinds on the
+//! [`make()`] is the way in, [`remesh()`] goes on to meshes. It goes from structure to place: `loops` finds few closed curves of three kinds on the
 //! surface whose dual is a polycube, valid from the first to the last, `charts` draws that polycube's facets on the
 //! surface, and `embedding` puts them in space, apart from each other, and lays each chart flat in its facet.
 
@@ -8,12 +8,15 @@ mod charts;
 mod embedding;
 mod labelled;
 mod loops;
+mod meshed;
 mod report;
 
+pub use meshed::remesh;
 pub use report::{MakeReport, MakeSeconds};
 
 use crate::context::Context;
 use crate::error::{Error, ErrorKind, Place, Result};
+use crate::input::Input;
 use crate::mesh::{Face, Mesh};
 use crate::structure::Surface;
 use charts::ChartedSurface;
@@ -25,18 +28,24 @@ use std::time::Instant;
 const MOST_EMBEDDED: usize = 3;
 
 /// How a polycube is made.
-#[derive(Clone, Copy, Debug, PartialEq, serde::Serialize)]
+#[derive(Clone, Debug, PartialEq, serde::Serialize)]
 pub struct MakeOptions {
     /// How much of the shape the polycube follows, from 0, as few corners as can be, to 1; 0.5 by default. It is the
     /// worth of a corner against how much of the surface its facets shrink.
     pub detail: f64,
     /// Take corners away until no more than these are left, as far as the shape allows, whatever `detail` says.
     pub corners: Option<usize>,
+    /// One label for each face of the shape, 0 to 5 for +X −X +Y −Y +Z −Z, as programs that label shapes leave them.
+    /// With them nothing is searched for, and `detail` and `corners` have no effect: the charts stay as they are, their
+    /// facets are put apart from each other on integer levels, and the charts laid flat in them. Labels do not say
+    /// whether edges run up or down: the shape tells.
+    #[serde(skip)]
+    pub labels: Option<Vec<i8>>,
 }
 
 impl Default for MakeOptions {
     fn default() -> Self {
-        Self { detail: 0.5, corners: None }
+        Self { detail: 0.5, corners: None, labels: None }
     }
 }
 
@@ -69,6 +78,13 @@ pub struct Made {
     pub report: MakeReport,
 }
 
+impl Made {
+    /// What is then simplified, meshed, compared or validated.
+    pub fn input(&self) -> Input<'_> {
+        Input { polycube: &self.polycube, shape: Some(&self.shape), labels: Some(&self.labels) }
+    }
+}
+
 /// Makes a polycube of a surface.
 ///
 /// The structure comes first: level sets of three functions on the surface, near to the coordinates, are made a valid
@@ -77,6 +93,8 @@ pub struct Made {
 /// on integers at the end: embedded, of the topology of the shape. Same input, same bytes, for any number of threads.
 ///
 /// Self-intersections of the shape do not matter. Some seconds for 20,000 triangles.
+///
+/// Where [`MakeOptions::labels`] are given, the structure is theirs.
 ///
 /// ```
 /// use polycube::Context;
@@ -88,22 +106,31 @@ pub struct Made {
 /// let made = make(&shape, &MakeOptions::default(), &Context::default())?;
 /// assert_eq!(made.shape.cells(), made.polycube.cells());
 /// assert!(made.report.folded.is_empty());
+///
+/// // The same structure again, of its labels.
+/// let labelled = MakeOptions { labels: Some(made.labels), ..MakeOptions::default() };
+/// let again = make(&made.shape, &labelled, &Context::default())?;
+/// assert_eq!(again.report.facets, made.report.facets);
 /// # Ok::<(), polycube::Error>(())
 /// ```
 ///
 /// # Errors
 /// [`ErrorKind::Option`] for options out of range; [`ErrorKind::Unsupported`] for a volume; [`ErrorKind::Mesh`] with
 /// the edge, face or vertex where the surface is not closed, oriented and manifold; [`ErrorKind::Polycube`] with a face
-/// where no structure was found or where parts of the polycube could not be kept apart; [`ErrorKind::Cancelled`].
+/// where no structure was found or where parts of the polycube could not be kept apart, or with the vertex, edge or
+/// face where labels are not those of a polycube; [`ErrorKind::Mismatch`] for labels that do not fit the faces;
+/// [`ErrorKind::Cancelled`].
 pub fn make(shape: &Mesh, options: &MakeOptions, context: &Context) -> Result<Made> {
     options.check()?;
     let clock = Instant::now();
+    context.tick(0.0)?;
     let surface = surface(shape)?;
-    let triangles: Vec<[u32; 3]> = surface.faces().iter().flat_map(Face::triangles).collect();
-    let named = |error| of_face(error, &surface);
-    let candidates = draw(shape, &triangles, options, &context.stage("loops", 0.0, 0.5)).map_err(named)?;
+    let drawn = match &options.labels {
+        Some(labels) => Drawn::labelled(shape, &surface, labels),
+        None => Drawn::found(shape, &surface, options, &context.stage("loops", 0.0, 0.5)),
+    }?;
     let structure = clock.elapsed().as_secs_f64();
-    let embedded = embed_best(&candidates, &context.stage("embed", 0.5, 1.0)).map_err(named)?;
+    let embedded = drawn.embed(&context.stage("embed", 0.5, 1.0)).map_err(|error| of_face(error, &surface))?;
     let total = clock.elapsed().as_secs_f64();
     finish(shape, embedded, MakeSeconds { structure, embedding: total - structure, total })
 }
@@ -117,54 +144,39 @@ fn of_face(mut error: Error, surface: &Surface) -> Error {
     error
 }
 
-/// Makes the polycube that the labels of a surface stand for, 0 to 5 for +X −X +Y −Y +Z −Z for each face: what programs
-/// that label shapes leave to be done. The charts stay as they are; their facets are put apart from each other on
-/// integer levels, and the charts laid flat in them. Labels do not say whether edges run up or down: the shape tells.
-/// Same input, same bytes.
-///
-/// ```
-/// use polycube::Context;
-/// use polycube::generate::{Example, example};
-/// use polycube::make::from_labels;
-/// use polycube::mesh::CellKind;
-/// use polycube::structure::{Polycube, Tolerance};
-///
-/// let (cube, shape) = example(Example::Ring, 1, CellKind::Triangles)?;
-/// let own = Polycube::new(&cube, None, &Tolerance::default()).expect("a polycube");
-/// let labels: Vec<i8> = own.labels().map(|l| l.index() as i8).collect();
-/// let made = from_labels(&shape, &labels, &Context::default())?;
-/// assert_eq!(made.report.facets, own.structure.facets.len());
-/// # Ok::<(), polycube::Error>(())
-/// ```
-///
-/// # Errors
-/// As [`make()`]; [`ErrorKind::Mismatch`] for labels that do not fit the faces, and [`ErrorKind::Polycube`] with the
-/// vertex, edge or face where the labels are not those of a polycube.
-pub fn from_labels(shape: &Mesh, labels: &[i8], context: &Context) -> Result<Made> {
-    let clock = Instant::now();
-    context.tick(0.0)?;
-    let surface = surface(shape)?;
-    let (charts, levels) = labelled::read(shape, surface.clone(), labels)?;
-    let structure = clock.elapsed().as_secs_f64();
-    let embedded = embedding::embed(&charts, levels, &context.stage("embed", 0.1, 1.0));
-    let embedded = embedded.map_err(|error| of_face(error, &surface))?;
-    let total = clock.elapsed().as_secs_f64();
-    finish(shape, embedded, MakeSeconds { structure, embedding: total - structure, total })
+/// What can be embedded.
+enum Drawn {
+    /// The charts of labels, and in which order their levels lie.
+    Labelled(Box<(ChartedSurface, Levels)>),
+    /// Sets of loops and the charts that they stand for, cheapest first: by what their labels cost and how many corners
+    /// they have.
+    Found(Vec<Candidate<ChartedSurface>>),
 }
 
-/// Sets of loops and the charts that they stand for, cheapest first: by what their labels cost and how many corners
-/// they have.
-fn draw(
-    shape: &Mesh,
-    triangles: &[[u32; 3]],
-    options: &MakeOptions,
-    context: &Context,
-) -> Result<Vec<Candidate<ChartedSurface>>> {
-    let wanted = LoopOptions { detail: options.detail, corners: options.corners };
-    loops::loops(shape.points(), triangles, &wanted, context, |set| {
-        let drawn = charts::charts(shape.points(), triangles, set, context)?;
-        Ok((drawn.cost() + wanted.price_of_corner() * set.corners as f64, drawn))
-    })
+impl Drawn {
+    fn labelled(shape: &Mesh, surface: &Surface, labels: &[i8]) -> Result<Self> {
+        Ok(Self::Labelled(Box::new(labelled::read(shape, surface, labels)?)))
+    }
+
+    fn found(shape: &Mesh, surface: &Surface, options: &MakeOptions, context: &Context) -> Result<Self> {
+        let triangles: Vec<[u32; 3]> = surface.faces().iter().flat_map(Face::triangles).collect();
+        let wanted = LoopOptions { detail: options.detail, corners: options.corners };
+        let candidates = loops::loops(shape.points(), &triangles, &wanted, context, |set| {
+            let drawn = charts::charts(shape.points(), &triangles, set, context)?;
+            Ok((drawn.cost() + wanted.price_of_corner() * set.corners as f64, drawn))
+        });
+        candidates.map(Self::Found).map_err(|error| of_face(error, surface))
+    }
+
+    fn embed(self, context: &Context) -> Result<Embedded> {
+        match self {
+            Self::Found(candidates) => embed_best(&candidates, context),
+            Self::Labelled(drawn) => {
+                let (charts, levels) = *drawn;
+                embedding::embed(&charts, levels, context)
+            }
+        }
+    }
 }
 
 /// The first candidate that can be embedded without folds; if there is none, the least folded of the first few.

@@ -20,6 +20,7 @@ use crate::output::{table, terminal};
 use clap::ValueHint;
 use files::{Formats, MESHES, all_solver_files, files, solver_files};
 use polycube::Context;
+use polycube::make;
 use polycube::mesh;
 use polycube::remesh::{RemeshOptions, Remeshed, remesh};
 use polycube::simplify::SimplifyOptions;
@@ -166,27 +167,29 @@ pub fn run(args: &Args) -> Result<ExitCode> {
     Ok(ExitCode::from(INFERIOR))
 }
 
-/// Reads the polycube, or makes one.
-fn meshes(args: &Args, context: &Context) -> Result<MeshFiles> {
-    match &args.polycube {
-        Some(polycube) => MeshFiles::read(polycube, Some(&args.shape), args.labels.given()),
-        None => MeshFiles::make(&args.shape, args.labels.given(), &args.make.get(), context),
+/// Meshes the pair, or the shape alone.
+fn meshed(args: &Args, meshes: MeshFiles, options: &RemeshOptions, context: &Context) -> polycube::Result<Remeshed> {
+    if args.polycube.is_some() {
+        return remesh(&meshes.input(), options, context);
     }
+    let MeshFiles { polycube: shape, labels, .. } = meshes;
+    Ok(make::remesh(&shape, &args.make.get(labels), options, context)?.1)
 }
 
 /// Reads, meshes, writes.
 pub fn work(args: &Args, context: &Context) -> Result<Remeshed> {
     let start = Instant::now();
     context.stage("read", 0.0, 0.05).tick(0.0)?;
-    let meshes = meshes(args, &context.stage("make", 0.0, 0.1))?;
+    // Alone, the shape stands where the polycube would.
+    let shape = args.polycube.as_ref().map(|_| args.shape.as_path());
     let polycube = args.polycube.as_ref().unwrap_or(&args.shape);
+    let meshes = MeshFiles::read(polycube, shape, args.labels.given())?;
     let formats = Formats::new(polycube, &args.format, args.options().surface_only, &meshes)?;
     let read = start.elapsed().as_secs_f64();
-    let middle = context.stage("read", 0.1, 0.95);
     let about = Failure::in_files(polycube, args.search.guides.as_deref());
-    let (input, mut options) = (meshes.input(), args.options());
+    let mut options = args.options();
     options.simplify.guides = args.search.guides()?;
-    let mut result = remesh(&input, &options, &middle).map_err(about)?;
+    let mut result = meshed(args, meshes, &options, &context.stage("read", 0.05, 0.95)).map_err(about)?;
     options.simplify.guides = result.simplified.options.guides.clone();
     result.report.simplify.seconds.read = read;
     let done = start.elapsed().as_secs_f64();

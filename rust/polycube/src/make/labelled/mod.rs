@@ -15,9 +15,9 @@ use directions::Directions;
 /// # Errors
 /// [`ErrorKind::Mismatch`] where labels are missing or are none; [`ErrorKind::Polycube`] with the element around which
 /// the labels are not those of a polycube.
-pub(super) fn read(shape: &Mesh, surface: Surface, labels: &[i8]) -> Result<(ChartedSurface, Levels)> {
+pub(super) fn read(shape: &Mesh, surface: &Surface, labels: &[i8]) -> Result<(ChartedSurface, Levels)> {
     let labels = check(labels, surface.faces().len())?;
-    let labelling = Labelling::new(surface, labels).map_err(first_of)?;
+    let labelling = Labelling::new(surface.clone(), labels).map_err(first_of)?;
     let directions = Directions::new(&labelling, shape.points());
     if let Some(error) = first_fault(&labelling, &directions) {
         return Err(error);
