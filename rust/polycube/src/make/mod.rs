@@ -1,8 +1,9 @@
 //! A polycube of a plain shape: any closed, oriented, manifold surface, of any genus and any number of parts.
 //!
-//! [`make()`] is the way in, [`remesh()`] goes on to meshes. It goes from structure to place: `loops` finds few closed curves of three kinds on the
-//! surface whose dual is a polycube, valid from the first to the last, `charts` draws that polycube's facets on the
-//! surface, and `embedding` puts them in space, apart from each other, and lays each chart flat in its facet.
+//! [`make()`] is the way in, [`remesh()`] goes on to meshes. It goes from structure to place: `loops` finds few closed
+//! curves of three kinds on the surface whose dual is a polycube, valid from the first to the last, `charts` draws that
+//! polycube's facets on the surface, and `embedding` puts them in space, apart from each other, and lays each chart
+//! flat in its facet.
 
 mod charts;
 mod embedding;

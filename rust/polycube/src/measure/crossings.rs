@@ -17,22 +17,30 @@ pub(crate) fn crossings(points: &[Point], triangles: &[[u32; 3]], context: &Cont
     let at = |v: u32| <[f64; 3]>::from(points[v as usize].coords);
     let boxes = (0..).zip(triangles).map(|(i, t)| (i, bounds(&t.map(at))));
     let tree = BoxTree::new(boxes);
-    let pierced = |(i, t): (usize, &[u32; 3])| {
+    let pierced = |&([u, v], i): &([u32; 2], u32)| {
         context.check()?;
         let mut found = Vec::new();
-        for [u, v] in [[t[0], t[1]], [t[1], t[2]], [t[2], t[0]]].into_iter().filter(|[u, v]| u < v) {
-            let (low, high) = bounds(&[at(u), at(v)]);
-            tree.meeting(low, high, |j| {
-                let other = triangles[j as usize];
-                if !other.contains(&u) && !other.contains(&v) && passes([u, v].map(at), other.map(at)) {
-                    found.push([i as u32, j]);
-                }
-            });
-        }
+        let (low, high) = bounds(&[at(u), at(v)]);
+        tree.meeting(low, high, |j| {
+            let other = triangles[j as usize];
+            if !other.contains(&u) && !other.contains(&v) && passes([u, v].map(at), other.map(at)) {
+                found.push([i, j]);
+            }
+        });
         Ok(found)
     };
-    let found = triangles.par_iter().enumerate().with_min_len(256).map(pierced).collect::<Result<Vec<_>>>()?;
+    let found = edges(triangles).par_iter().with_min_len(256).map(pierced).collect::<Result<Vec<_>>>()?;
     Ok(found.concat())
+}
+
+/// Every edge once, with a triangle that has it.
+fn edges(triangles: &[[u32; 3]]) -> Vec<([u32; 2], u32)> {
+    let of =
+        |(i, t): (u32, &[u32; 3])| [[t[0], t[1]], [t[1], t[2]], [t[2], t[0]]].map(|[u, v]| ([u.min(v), u.max(v)], i));
+    let mut edges: Vec<_> = (0..).zip(triangles).flat_map(of).collect();
+    edges.sort_unstable();
+    edges.dedup_by_key(|(edge, _)| *edge);
+    edges
 }
 
 /// Whether a segment passes through the inside of a triangle from one side to the other.

@@ -5,7 +5,7 @@ use super::{Repair, Work};
 use crate::measure::tetrahedron_volume;
 use crate::mesh::hexahedron::{self, corner_tetrahedra};
 use crate::mesh::{Cells, Face, Point};
-use crate::structure::{Label, area_vector};
+use crate::structure::{Label, area_vector, cone};
 
 impl Work<'_> {
     /// Mirrors cells of a volume that are numbered left-handed. Neighbours shall see the face between them from
@@ -120,11 +120,11 @@ fn bounds<'a>(points: &[Point], faces: impl Iterator<Item = &'a Face>) -> [Point
     all.fold(empty, |[low, high], p| [low.inf(&p), high.sup(&p)])
 }
 
-/// The volume, but for a factor, of the cone over each face from the middle of all.
+/// Six times the volume of the cone over each face from the middle of all.
 fn cones(points: &[Point], faces: &[Face]) -> Vec<f64> {
     let sum: nalgebra::Vector3<f64> = faces.iter().map(|f| f.middle(points).coords).sum();
     let middle = Point::from(sum / faces.len() as f64);
-    faces.iter().map(|f| (f.middle(points) - middle).dot(&area_vector(points, f))).collect()
+    faces.iter().map(|f| cone(points, f, &middle)).collect()
 }
 
 /// A side of an element: its vertices in ascending order, and whether the element passes them that way round.

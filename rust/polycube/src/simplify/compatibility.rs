@@ -2,8 +2,8 @@
 
 use super::Input;
 use crate::error::{Error, ErrorKind, Place};
-use crate::mesh::{Face, LabelOrder, Mesh, Point};
-use crate::structure::{Polycube, area_vector, convention};
+use crate::mesh::{LabelOrder, Mesh, Point};
+use crate::structure::{Polycube, cone, convention};
 
 /// No coordinate may be larger: the sixth powers of lengths, which energies have, are still numbers.
 pub(super) const LARGEST_COORDINATE: f64 = 1e50;
@@ -105,8 +105,7 @@ pub(crate) fn check_side(polycube: &Polycube, points: &[Point], shape: &[Point])
     Err(Misfit { rule: "mirrored", in_shape: true, error: Box::new(error) })
 }
 
-/// The volume that a part of a surface encloses, times 18 or 24, and the sum of the absolute values that it is summed
-/// from.
+/// Six times the volume that a part of a surface encloses, and the sum of the absolute values that it is summed from.
 #[derive(Clone, Copy, Default)]
 struct Volume {
     sum: f64,
@@ -126,16 +125,11 @@ fn volumes(polycube: &Polycube, component: &[u32], points: &[Point]) -> Vec<Volu
     for (face, &facet) in polycube.surface.faces().iter().zip(&polycube.facet_of_face) {
         let part = component[facet as usize] as usize;
         let origin = *origins[part].get_or_insert(points[face.vertices()[0] as usize]);
-        let cone = cone(face, points, &origin);
+        let cone = cone(points, face, &origin);
         volumes[part].sum += cone;
         volumes[part].scale += cone.abs();
     }
     volumes
-}
-
-fn cone(face: &Face, points: &[Point], origin: &Point) -> f64 {
-    let arm: nalgebra::Vector3<f64> = face.vertices().iter().map(|&v| points[v as usize] - origin).sum();
-    arm.dot(&area_vector(points, face))
 }
 
 #[cfg(test)]

@@ -70,3 +70,9 @@ pub(crate) fn area_vector(points: &[Point], face: &Face) -> Vector3<f64> {
         Face::Quad([a, b, c, d]) => (at(c) - at(a)).cross(&(at(d) - at(b))),
     }
 }
+
+/// Six times the volume of the cone over a face from `apex`, negative where the face looks to it. Over all faces of a
+/// closed surface their sum is that of what it encloses, wherever the apex is.
+pub(crate) fn cone(points: &[Point], face: &Face, apex: &Point) -> f64 {
+    (face.middle(points) - apex).dot(&area_vector(points, face))
+}

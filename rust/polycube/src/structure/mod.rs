@@ -20,7 +20,7 @@ mod violation;
 pub use arrangement::{Arrangement, Conflict};
 pub(crate) use convention::convention;
 pub use label::Label;
-pub(crate) use label::area_vector;
+pub(crate) use label::{area_vector, cone};
 pub(crate) use labelling::Labelling;
 pub(crate) use order::ascending;
 pub(crate) use overlaps::Overlaps;

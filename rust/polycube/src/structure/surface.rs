@@ -1,6 +1,6 @@
 //! Which boundary face lies beside which: half-edges over triangles and quadrilaterals.
 
-use super::label::area_vector;
+use super::label::cone;
 use super::violation::Violation;
 use crate::mesh::{Face, Point};
 
@@ -48,7 +48,7 @@ impl Surface {
     /// Six times the volume that it encloses; negative where it looks inward. O(n) for n faces.
     pub(crate) fn volume(&self, points: &[Point]) -> f64 {
         let Some(first) = self.faces.first().map(|f| f.middle(points)) else { return 0.0 };
-        self.faces.iter().map(|f| 2.0 * (f.middle(points) - first).dot(&area_vector(points, f))).sum()
+        self.faces.iter().map(|f| cone(points, f, &first)).sum()
     }
 
     /// The faces, as given.

@@ -8,9 +8,9 @@ use crate::mesh::{Face, Mesh, Point};
 use crate::structure::{Surface, Violation};
 
 /// Lists what is wrong with a shape that has no polycube yet; of a volume, with its surface. First come violations of
-/// the first rule for closed, oriented, manifold surfaces that does not hold. Where they all hold: `inside_out` if the
-/// surface looks inward, and `crossing_faces` for every two faces that cross; [`make`](crate::make::make()) does not
-/// mind the latter, but no hexahedra can fill such a shape. Nothing for a shape that is fit to be meshed.
+/// the first rule for closed, oriented, manifold surfaces that does not hold or, where they all hold, `inside_out` if
+/// the surface looks inward; then `crossing_faces` for every two faces that cross. [`make`](crate::make::make()) does
+/// not mind the latter, but no hexahedra can fill such a shape. Nothing for a shape that is fit to be meshed.
 /// O(n log n) for n faces, and for the pairs that cross.
 ///
 /// ```
@@ -32,13 +32,14 @@ pub fn validate_shape(shape: &Mesh, context: &Context) -> Result<Vec<Finding>> {
         Err(error) => return Ok(vec![Finding::of(error, Subject::Shape)?]),
     };
     let middles = Middles::new(shape);
-    let surface = match Surface::new(faces, shape.points().len()) {
-        Ok(surface) => surface,
-        Err(violations) => return Ok(middles.findings(violations.into_iter(), Subject::Shape)),
+    let crossing = crossing_faces(shape.points(), &faces, context)?;
+    let violations = match Surface::new(faces, shape.points().len()) {
+        Ok(surface) if surface.volume(shape.points()) < 0.0 => vec![Violation::InsideOut { face: 0 }],
+        Ok(_) => Vec::new(),
+        Err(violations) => violations,
     };
-    let inward = (surface.volume(shape.points()) < 0.0).then_some(Violation::InsideOut { face: 0 });
-    let mut findings = middles.findings(inward.into_iter(), Subject::Shape);
-    for [face, other] in crossing_faces(shape.points(), surface.faces(), context)? {
+    let mut findings = middles.findings(violations.into_iter(), Subject::Shape);
+    for [face, other] in crossing {
         let error = Error::new(ErrorKind::Mesh, format!("this face and face {other} cross"))
             .at(Place::Face(face))
             .remedy("move the surface apart there, or unite the parts that overlap");
@@ -102,8 +103,27 @@ mod tests {
         let turned = quads(&sound).into_iter().map(|[a, b, c, d]| [d, c, b, a]).collect();
         let turned = Mesh::new(sound.points().to_vec(), Cells::Quads(turned)).unwrap();
         assert_eq!(rules(&turned), ["inside_out"]);
-        let mut open = quads(&sound);
-        open.pop();
-        assert_eq!(rules(&Mesh::new(sound.points().to_vec(), Cells::Quads(open)).unwrap()), ["open_edge"; 4]);
+        let without_last = |mesh: &Mesh| {
+            let mut open = quads(mesh);
+            open.pop();
+            Mesh::new(mesh.points().to_vec(), Cells::Quads(open)).unwrap()
+        };
+        assert_eq!(rules(&without_last(&sound)), ["open_edge"; 4]);
+        // What crosses is told of open surfaces, too.
+        let both = rules(&without_last(&two_cubes([1.5, 0.25, 0.25])));
+        assert_eq!(both[..4], ["open_edge"; 4]);
+        assert!(both.len() > 4 && both[4..].iter().all(|rule| *rule == "crossing_faces"), "{both:?}");
+    }
+
+    /// Three edges of a triangle, each in one face alone: whichever way around it is given, they pierce the others.
+    #[test]
+    fn edges_of_open_surfaces_are_looked_at_whichever_way_they_run() {
+        let points =
+            [[0.0, 0.0, 0.0], [4.0, 0.0, 0.0], [0.0, 4.0, 0.0], [1.0, 1.0, -1.0], [1.0, 1.5, 1.0], [1.5, 1.0, 1.0]];
+        let points: Vec<Point> = points.into_iter().map(Point::from).collect();
+        for tip in [[3, 4, 5], [5, 4, 3], [4, 3, 5]] {
+            let mesh = Mesh::new(points.clone(), Cells::Triangles(vec![[0, 1, 2], tip])).unwrap();
+            assert_eq!(rules(&mesh).iter().filter(|rule| **rule == "crossing_faces").count(), 1, "{tip:?}");
+        }
     }
 }
