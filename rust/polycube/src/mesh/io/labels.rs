@@ -4,7 +4,7 @@ use super::file::{read_file, write_atomically};
 use super::label_order::LabelOrder;
 use super::scan::{number, quoted, without_mark};
 use super::soup::Soup;
-use super::{format_of, soup};
+use super::{format_of, formats};
 use crate::error::{Error, ErrorKind, Place, Result};
 use crate::mesh::{Cells, Face, Mesh};
 use std::collections::HashMap;
@@ -105,7 +105,7 @@ fn agreement(mesh: &Mesh, boundary: &[Face], numbers: &[i8]) -> f64 {
 }
 
 fn listed(source: &Path) -> Result<Soup> {
-    let held = soup(format_of(source)?, &read_file(source)?);
+    let held = formats::read(format_of(source)?, &read_file(source)?);
     held.map_err(|error| error.in_file(source.display()))
 }
 

@@ -6,26 +6,17 @@
 mod field;
 mod file;
 mod format;
+mod formats;
 mod label_order;
 mod labels;
-mod medit;
-mod obj;
-mod off;
 mod pair;
-mod ply;
-mod ply_header;
 mod polygon;
 mod scalar;
 mod scan;
 mod sniff;
 mod solver;
 mod soup;
-mod stl;
 mod text;
-mod vtk;
-mod vtk_cells;
-mod vtu;
-mod vtu_data;
 
 #[cfg(test)]
 mod tests;
@@ -38,7 +29,6 @@ pub use labels::{parse_labels, read_labels, read_labels_of, write_labels};
 pub use pair::read_pair;
 pub use solver::{SolverFormat, write_solver};
 
-use self::soup::Soup;
 use super::Mesh;
 use crate::error::{Error, ErrorKind, Result};
 use std::path::Path;
@@ -104,20 +94,7 @@ fn about<'a>(format: Format, path: &'a Path, bytes: &'a [u8]) -> impl Fn(Error) 
 /// # Errors
 /// As [`read`], but never [`ErrorKind::Io`].
 pub fn read_bytes(format: Format, bytes: &[u8]) -> Result<Mesh> {
-    soup(format, bytes)?.finish()
-}
-
-/// What the bytes of a file hold.
-fn soup(format: Format, bytes: &[u8]) -> Result<Soup> {
-    match format {
-        Format::Obj => obj::read(bytes),
-        Format::Off => off::read(bytes),
-        Format::Ply => ply::read(bytes),
-        Format::Stl => stl::read(bytes),
-        Format::Medit => medit::read(bytes),
-        Format::Vtk => vtk::read(bytes),
-        Format::Vtu => vtu::read(bytes),
-    }
+    formats::read(format, bytes)?.finish()
 }
 
 /// Writes a mesh to a file whose extension tells the format, whole or not at all (see [`write_atomically`]).
@@ -160,13 +137,5 @@ pub fn write_bytes(format: Format, mesh: &Mesh, fields: &[CellField]) -> Result<
         return Err(Error::new(ErrorKind::Mesh, "a mesh without cells cannot be written"));
     }
     field::check_fields(fields, mesh.cells().len())?;
-    match format {
-        Format::Obj => Ok(obj::write(mesh)),
-        Format::Off => Ok(off::write(mesh)),
-        Format::Ply => Ok(ply::write(mesh, fields)),
-        Format::Stl => stl::write(mesh),
-        Format::Medit => Ok(medit::write(mesh, fields)),
-        Format::Vtk => Ok(vtk::write(mesh, fields)),
-        Format::Vtu => Ok(vtu::write(mesh, fields)),
-    }
+    formats::write(format, mesh, fields)
 }

@@ -1,6 +1,7 @@
 //! A polycube and the shape it was deformed from.
 
-use super::{Format, about, file, format_of, soup, stl};
+use super::formats::{self, stl};
+use super::{Format, about, file, format_of};
 use crate::error::{Error, ErrorKind, Place, Result};
 use crate::mesh::Mesh;
 use std::path::Path;
@@ -24,7 +25,8 @@ pub fn read_pair(polycube: &Path, shape: &Path) -> Result<(Mesh, Mesh)> {
         return stl::pair(&a, &b).map_err(in_both);
     }
     let (about_a, about_b) = (about(formats.0, polycube, &a), about(formats.1, shape, &b));
-    let [held, held_b] = [soup(formats.0, &a).map_err(&about_a)?, soup(formats.1, &b).map_err(&about_b)?];
+    let [held, held_b] =
+        [formats::read(formats.0, &a).map_err(&about_a)?, formats::read(formats.1, &b).map_err(&about_b)?];
     let a = held.mesh().map_err(&about_a)?;
     let b = held_b.finish_like(&held, &a).map_err(&about_b)?;
     compare(&a, &b).map_err(in_both)?;

@@ -1,12 +1,12 @@
 //! Stanford PLY: the positions of the element `vertex` and the corners of the element `face`.
 
-use super::field::{CellField, FieldValues};
 use super::ply_header::{Element, Encoding, Property, header};
-use super::scalar::{Scalar, whole};
-use super::scan::Scanner;
-use super::soup::Soup;
-use super::text::Text;
 use crate::error::{Error, ErrorKind, Result};
+use crate::mesh::io::field::{CellField, FieldValues};
+use crate::mesh::io::scalar::{Scalar, whole};
+use crate::mesh::io::scan::Scanner;
+use crate::mesh::io::soup::Soup;
+use crate::mesh::io::text::Text;
 use crate::mesh::{Mesh, Point};
 
 /// Reads a mesh; all other elements and properties are ignored.

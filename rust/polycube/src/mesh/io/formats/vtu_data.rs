@@ -1,8 +1,8 @@
 //! The data arrays of VTK's XML files.
 
-use super::scalar::{Endian, Scalar};
-use super::scan::Scanner;
 use crate::error::{Error, ErrorKind, Place, Result};
+use crate::mesh::io::scalar::{Endian, Scalar};
+use crate::mesh::io::scan::Scanner;
 use base64::Engine;
 use base64::prelude::BASE64_STANDARD as STANDARD;
 use miniz_oxide::inflate::{TINFLStatus, decompress_to_vec_zlib_with_limit};

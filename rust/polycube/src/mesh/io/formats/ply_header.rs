@@ -1,8 +1,8 @@
 //! The header of a PLY file.
 
-use super::scalar::{Endian, Scalar};
-use super::scan::{Scanner, number, quoted};
 use crate::error::Result;
+use crate::mesh::io::scalar::{Endian, Scalar};
+use crate::mesh::io::scan::{Scanner, number, quoted};
 
 /// How the numbers after the header are written.
 #[derive(Clone, Copy, PartialEq, Eq)]

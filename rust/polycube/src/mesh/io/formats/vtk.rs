@@ -1,13 +1,13 @@
 //! Legacy VTK files: unstructured grids and polygonal data, versions 2 to 5.1, text and binary.
 
-use super::field::{CellField, FieldValues};
-use super::scalar::{Endian, Scalar};
-use super::scan::{Scanner, number};
-use super::soup::Soup;
-use super::text::Text;
 use super::vtk_cells::{POLYGON, VtkCells, number_of, points};
 use crate::error::{Error, ErrorKind, Result};
 use crate::mesh::Mesh;
+use crate::mesh::io::field::{CellField, FieldValues};
+use crate::mesh::io::scalar::{Endian, Scalar};
+use crate::mesh::io::scan::{Scanner, number};
+use crate::mesh::io::soup::Soup;
+use crate::mesh::io::text::Text;
 
 /// Reads a mesh; the data on points and cells are ignored.
 pub(super) fn read(bytes: &[u8]) -> Result<Soup> {
@@ -87,7 +87,7 @@ impl<'a> Reader<'a> {
         if matches!(name, b"UNSTRUCTURED_GRID" | b"POLYDATA") {
             return Ok(());
         }
-        let message = format!("a data set of kind {}", super::scan::quoted(name));
+        let message = format!("a data set of kind {}", crate::mesh::io::scan::quoted(name));
         Err(Error::new(ErrorKind::Unsupported, message).remedy("export an unstructured grid or polygonal data"))
     }
 
@@ -124,7 +124,7 @@ impl<'a> Reader<'a> {
         let mut corners = Vec::with_capacity(numbers.len());
         let mut rest = numbers;
         while let Some((&length, tail)) = rest.split_first() {
-            let cell = super::scalar::whole(length).ok().and_then(|n| tail.split_at_checked(n as usize));
+            let cell = crate::mesh::io::scalar::whole(length).ok().and_then(|n| tail.split_at_checked(n as usize));
             let (cell, tail) =
                 cell.ok_or_else(|| self.scanner.error(format!("cell {} has {length} corners", ends.len())))?;
             corners.extend_from_slice(cell);

@@ -1,8 +1,8 @@
 //! The cells that legacy and XML VTK files share.
 
-use super::scalar::whole;
-use super::soup::Soup;
 use crate::error::{Error, ErrorKind, Place, Result};
+use crate::mesh::io::scalar::whole;
+use crate::mesh::io::soup::Soup;
 use crate::mesh::{CellKind, Point};
 
 /// VTK's number of a polygon.

@@ -1,9 +1,9 @@
 //! Wavefront OBJ: vertices and faces; texture, normals, groups, lines and all else are ignored.
 
-use super::scan::{Scanner, number, quoted, without_mark};
-use super::soup::Soup;
-use super::text::Text;
 use crate::error::{Error, ErrorKind, Place, Result};
+use crate::mesh::io::scan::{Scanner, number, quoted, without_mark};
+use crate::mesh::io::soup::Soup;
+use crate::mesh::io::text::Text;
 use crate::mesh::{Mesh, Point};
 
 /// Reads a mesh; vertices are neither merged nor dropped.

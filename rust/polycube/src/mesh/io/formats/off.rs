@@ -1,10 +1,10 @@
 //! Geomview OFF: vertices and faces as text; normals, colours and texture coordinates are ignored.
 
-use super::scan::Scanner;
-use super::soup::Soup;
-use super::text::Text;
 use crate::error::{Error, ErrorKind, Result};
 use crate::mesh::Mesh;
+use crate::mesh::io::scan::Scanner;
+use crate::mesh::io::soup::Soup;
+use crate::mesh::io::text::Text;
 
 /// Reads a mesh.
 pub(super) fn read(bytes: &[u8]) -> Result<Soup> {

@@ -1,12 +1,12 @@
 //! VTK's XML unstructured grids: text, inline base64 and appended data, plain or compressed by zlib.
 
-use super::field::{CellField, FieldValues};
-use super::soup::Soup;
-use super::text::Text;
 use super::vtk_cells::{VtkCells, number_of, points};
 use super::vtu_data::{Arrays, find, line_of};
 use crate::error::{Error, ErrorKind, Place, Result};
 use crate::mesh::Mesh;
+use crate::mesh::io::field::{CellField, FieldValues};
+use crate::mesh::io::soup::Soup;
+use crate::mesh::io::text::Text;
 use base64::Engine;
 use base64::prelude::BASE64_STANDARD;
 use roxmltree::{Document, Node};

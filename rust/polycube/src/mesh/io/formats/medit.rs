@@ -1,10 +1,10 @@
 //! MEDIT `.mesh` as text: sections in any order; references are ignored when read.
 
-use super::field::{CellField, FieldValues};
-use super::scan::Scanner;
-use super::soup::Soup;
-use super::text::Text;
 use crate::error::{Error, ErrorKind, Result};
+use crate::mesh::io::field::{CellField, FieldValues};
+use crate::mesh::io::scan::Scanner;
+use crate::mesh::io::soup::Soup;
+use crate::mesh::io::text::Text;
 use crate::mesh::{Cells, Mesh};
 
 /// Reads a mesh.

@@ -1,10 +1,10 @@
 //! STL: loose triangles in single precision, whose corners are welded where they coincide exactly.
 
-use super::scalar::{Endian, Scalar};
-use super::scan::Scanner;
-use super::soup::Soup;
 use crate::error::{Error, ErrorKind, Place, Result};
 use crate::mesh::checked::check_points;
+use crate::mesh::io::scalar::{Endian, Scalar};
+use crate::mesh::io::scan::Scanner;
+use crate::mesh::io::soup::Soup;
 use crate::mesh::{Cells, Mesh, Point};
 use std::collections::HashMap;
 
@@ -25,7 +25,7 @@ pub(super) fn read(bytes: &[u8]) -> Result<Soup> {
 
 /// Joins the corners of two files with the same triangles; two corners are one vertex where both files
 /// agree that they coincide.
-pub(super) fn pair(polycube: &[Point], shape: &[Point]) -> Result<(Mesh, Mesh)> {
+pub(in crate::mesh::io) fn pair(polycube: &[Point], shape: &[Point]) -> Result<(Mesh, Mesh)> {
     let (n, m) = (polycube.len() / 3, shape.len() / 3);
     if n != m {
         let message = format!("the polycube has {n} triangles, the shape {m}");
@@ -67,7 +67,7 @@ fn weld<K: std::hash::Hash + Eq>(count: usize, key: impl Fn(usize) -> K) -> Resu
 }
 
 /// The corners of all triangles of a file, three after three; at least one triangle.
-pub(super) fn corners(bytes: &[u8]) -> Result<Vec<Point>> {
+pub(in crate::mesh::io) fn corners(bytes: &[u8]) -> Result<Vec<Point>> {
     // Some binary files begin with "solid" too, but then their length fits their number of triangles.
     let text = bytes.trim_ascii_start().get(..5).is_some_and(|word| word.eq_ignore_ascii_case(b"solid"));
     let corners = match binary_facets(bytes) {

@@ -1,0 +1,44 @@
+//! One file for each format of meshes.
+
+mod medit;
+mod obj;
+mod off;
+mod ply;
+mod ply_header;
+pub(super) mod stl;
+mod vtk;
+mod vtk_cells;
+mod vtu;
+mod vtu_data;
+
+use super::field::CellField;
+use super::format::Format;
+use super::soup::Soup;
+use crate::error::Result;
+use crate::mesh::Mesh;
+
+/// What the bytes of a file hold.
+pub(super) fn read(format: Format, bytes: &[u8]) -> Result<Soup> {
+    match format {
+        Format::Obj => obj::read(bytes),
+        Format::Off => off::read(bytes),
+        Format::Ply => ply::read(bytes),
+        Format::Stl => stl::read(bytes),
+        Format::Medit => medit::read(bytes),
+        Format::Vtk => vtk::read(bytes),
+        Format::Vtu => vtu::read(bytes),
+    }
+}
+
+/// The bytes of a file; the format must be able to hold the mesh.
+pub(super) fn write(format: Format, mesh: &Mesh, fields: &[CellField]) -> Result<Vec<u8>> {
+    match format {
+        Format::Obj => Ok(obj::write(mesh)),
+        Format::Off => Ok(off::write(mesh)),
+        Format::Ply => Ok(ply::write(mesh, fields)),
+        Format::Stl => stl::write(mesh),
+        Format::Medit => Ok(medit::write(mesh, fields)),
+        Format::Vtk => Ok(vtk::write(mesh, fields)),
+        Format::Vtu => Ok(vtu::write(mesh, fields)),
+    }
+}
