@@ -35,8 +35,10 @@ QuadMesh quads(const bridge::QuadsData& data) {
 }
 
 HexMesh hexes(const bridge::HexesData& data) {
+    std::vector<BoundaryFace> boundary;
+    for (const auto& side : data.boundary) boundary.push_back({side.cell, side.face, side.label, side.facet});
     return {internal::mesh(data.mesh), internal::vector(data.block_id), internal::vector(data.label),
-            internal::vector(data.scaled_jacobian), internal::vector(data.edge_ratio),
+            std::move(boundary), internal::vector(data.scaled_jacobian), internal::vector(data.edge_ratio),
             internal::vector(data.determinant), internal::vector(data.non_orthogonality),
             internal::vector(data.skewness)};
 }
@@ -89,6 +91,17 @@ std::vector<CellField> HexMesh::fields() const {
             {"determinant", determinant},
             {"non_orthogonality", non_orthogonality},
             {"skewness", skewness}};
+}
+
+void write_solver(const std::string& path, const HexMesh& hexes) {
+    std::vector<bridge::BoundaryFaceData> boundary;
+    for (const BoundaryFace& side : hexes.boundary) {
+        boundary.push_back({side.hexahedron, side.face, side.label, side.facet});
+    }
+    internal::call([&] {
+        bridge::write_solver(internal::text(path), internal::view(hexes.mesh), internal::slice(hexes.block_id),
+                             internal::slice(boundary));
+    });
 }
 
 std::vector<CellField> Layout::block_fields() const {

@@ -1,5 +1,6 @@
 #include <QDir>
 #include <QFileInfo>
+#include <QStringList>
 #include <algorithm>
 #include <stdexcept>
 
@@ -18,7 +19,8 @@ class HexFilter final : public Filter {
         return "Simplifies the polycube of a shape, which is made where there is none, and meshes the solid with "
                "hexahedra along the coarse block structure. "
                "MeshLab holds no volumes, so they go to a file: .vtu or .vtk for ParaView, with scaled Jacobian, block "
-               "and label of each cell, or .mesh (MEDIT). Their boundary is shown as a new layer, coloured by block. "
+               "and label of each cell, .mesh (MEDIT), or with blocks and boundary by name .msh (Gmsh), .inp (Abaqus, "
+               "CalculiX) or .su2. Their boundary is shown as a new layer, coloured by block. "
                "The log tells the counts, the least scaled Jacobian, and what was not possible. Ten thousand hexahedra "
                "take some seconds to a minute, and MeshLab cannot stop a filter on its way.";
     }
@@ -26,6 +28,11 @@ class HexFilter final : public Filter {
     void add_parameters(const MeshDocument& document, RichParameterList& parameters) const override;
     host::Values apply(const Call& call) const override;
 };
+
+/// The extensions of files with blocks and boundary by name.
+const QStringList SOLVERS = {"msh", "inp", "su2"};
+/// All that hexahedra are written to.
+const QStringList EXTENSIONS = QStringList{"vtu", "vtk", "mesh"} + SOLVERS;
 
 /// A file beside that of the current layer.
 QString proposed_file(const MeshDocument& document) {
@@ -41,8 +48,9 @@ int proposed_count(const MeshDocument& document) {
 }
 
 void HexFilter::add_parameters(const MeshDocument& document, RichParameterList& parameters) const {
-    parameters.addParam(host::FileSave("file", proposed_file(document), "Hexahedral mesh (*.vtu *.vtk *.mesh)",
-                                       "Write the hexahedra to", "A file whose name ends in .vtu, .vtk or .mesh."));
+    const QString kinds = "Hexahedral mesh (*." + EXTENSIONS.join(" *.") + ")";
+    parameters.addParam(host::FileSave("file", proposed_file(document), kinds, "Write the hexahedra to",
+                                       "A file whose name ends in ." + EXTENSIONS.join(", .") + "."));
     add_pair(document, parameters, MADE_OF_ALONE);
     parameters.addParam(RichInt("hexes", proposed_count(document), "Number of hexahedra",
                                 "About how many there shall be, padding included."));
@@ -58,10 +66,9 @@ void HexFilter::add_parameters(const MeshDocument& document, RichParameterList& 
 std::string checked_file(const QString& name) {
     const QFileInfo file(name);
     const QString suffix = file.suffix().toLower();
-    if (suffix != "vtu" && suffix != "vtk" && suffix != "mesh")
-        throw std::invalid_argument("\"" + name.toStdString() +
-                                    "\" is no file for hexahedra. Choose a name that ends in "
-                                    ".vtu, .vtk or .mesh.");
+    if (!EXTENSIONS.contains(suffix))
+        throw std::invalid_argument("\"" + name.toStdString() + "\" is no file for hexahedra. Choose a name that "
+                                    "ends in ." + EXTENSIONS.join(", .").toStdString() + ".");
     if (!file.absoluteDir().exists())
         throw std::invalid_argument("The folder of \"" + name.toStdString() + "\" does not exist. Choose another one.");
     return file.absoluteFilePath().toStdString();
@@ -82,7 +89,9 @@ polycube::filter::Settings settings_of(const RichParameterList& parameters) {
 
 /// Writes the bytes that the command writes: MEDIT files without fields.
 void write(const std::string& file, const polycube::HexMesh& hexes) {
-    const bool medit = file.substr(file.rfind('.') + 1) == "mesh";
+    const QString suffix = QFileInfo(QString::fromStdString(file)).suffix().toLower();
+    if (SOLVERS.contains(suffix)) return polycube::write_solver(file, hexes);
+    const bool medit = suffix == "mesh";
     polycube::write_mesh(file, hexes.mesh, medit ? std::vector<polycube::CellField>() : hexes.fields());
 }
 

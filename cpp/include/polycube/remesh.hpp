@@ -52,11 +52,20 @@ struct QuadMesh {
     std::vector<CellField> fields() const;
 };
 
+/// A face on the outside of a hexahedral mesh.
+struct BoundaryFace {
+    std::uint32_t hexahedron = 0;  ///< The hexahedron that has it.
+    std::uint8_t face = 0;         ///< Which of its faces, 0 to 5, as VTK orders them.
+    std::int8_t label = 0;         ///< The direction it has on the polycube, 0 to 5 for +X -X +Y -Y +Z -Z.
+    std::uint32_t facet = 0;       ///< The facet of the polycube that it lies on.
+};
+
 /// The hexahedral mesh. One number per hexahedron.
 struct HexMesh {
     Mesh mesh;                            ///< In units of the shape.
     std::vector<std::uint32_t> block_id;  ///< The block, from 0: a cell of `Layout::blocks`.
     std::vector<std::int8_t> label;       ///< The label of its facet at the surface, 0 to 5; -1 inside.
+    std::vector<BoundaryFace> boundary;   ///< Its outside, in the order of the cells of `QuadMesh::mesh`.
     std::vector<double> scaled_jacobian;  ///< The smallest of its corners', -1 to 1; 0 or less is inverted.
     std::vector<double> edge_ratio;       ///< Longest over shortest edge, at least 1.
     std::vector<double> determinant;      ///< The least of its corners' over the mean of the mesh.
@@ -141,5 +150,16 @@ Remeshed remesh(const Input& input, const RemeshOptions& options = {}, const Con
 ///
 /// @throws Error as `make()` and as above; option for `guides.fixed_faces`, as there are no faces yet to lock.
 Remeshed remesh(const Mesh& shape, const RemeshOptions& options = {}, const Context& context = {});
+
+/// Writes hexahedra for the solver that the extension names, whole or not at all, with blocks and boundary by name
+/// (block_0 ...; facet_0 ..., and minus_x to plus_z for all facets that look one way on the polycube): msh of Gmsh 4.1,
+/// inp of Abaqus and CalculiX, su2 of SU2 (boundary only), foam for the folder of an OpenFOAM case.
+///
+/// @code
+/// polycube::write_solver("hexes.msh", *result.hexes);
+/// @endcode
+///
+/// @throws Error io, unsupported (another extension), mismatch (the boundary is not that of the mesh).
+void write_solver(const std::string& path, const HexMesh& hexes);
 
 }  // namespace polycube

@@ -22,7 +22,7 @@ use buffers::{
 use buffers::{example_names, read_labels, write_labels};
 use checking::check;
 use making::{default_make_options, make};
-use meshing::{default_remesh_options, remesh, remesh_shape};
+use meshing::{default_remesh_options, remesh, remesh_shape, write_solver};
 use options::default_options;
 use results::{Simplified, corner_pairs, panic_in_core, simplify};
 
@@ -231,10 +231,18 @@ mod ffi {
         block_id: Vec<u32>,
     }
 
+    struct BoundaryFaceData {
+        cell: u32,
+        face: u8,
+        label: i8,
+        facet: u32,
+    }
+
     struct HexesData {
         mesh: MeshData,
         block_id: Vec<u32>,
         label: Vec<i8>,
+        boundary: Vec<BoundaryFaceData>,
         scaled_jacobian: Vec<f64>,
         edge_ratio: Vec<f64>,
         determinant: Vec<f64>,
@@ -384,6 +392,7 @@ mod ffi {
         fn write_mesh_bytes(extension: &str, mesh: &MeshView, fields: Vec<FieldData>) -> Result<Vec<u8>>;
         fn read_labels(path: &str, face_count: usize) -> Result<Vec<i8>>;
         fn write_labels(path: &str, labels: &[i8]) -> Result<()>;
+        fn write_solver(path: &str, mesh: &MeshView, block_id: &[u32], boundary: &[BoundaryFaceData]) -> Result<()>;
         fn boundary(mesh: &MeshView) -> Result<MeshData>;
         fn scaled_jacobians(mesh: &MeshView) -> Result<Vec<f64>>;
         fn example_names() -> Vec<String>;

@@ -2,15 +2,18 @@
 
 use crate::failure::{Result, guard};
 use crate::ffi::*;
-use crate::input::{Owned, mesh};
+use crate::input::{Owned, mesh as owned};
 use crate::making::{made, make_options};
 use crate::options::{defaults, options};
 use crate::results::{Simplified, json};
 use crate::run::run;
 use polycube::make;
 use polycube::measure::CellMeasures;
-use polycube::remesh::{self as core, Hexes, Layout, Quads, RemeshOptions, RemeshReport, Remeshed, Size};
+use polycube::mesh::{self, HexFace};
+use polycube::remesh::{self as core, BoundaryFace, Hexes, Layout, Quads, RemeshOptions, RemeshReport, Remeshed, Size};
+use polycube::structure::Label;
 use polycube::{Error, ErrorKind};
+use std::path::Path;
 
 /// See `polycube::remesh::remesh`.
 pub fn remesh(input: &InputView, data: &RemeshOptionsData, observer: &Observer) -> Result<RemeshedData> {
@@ -30,7 +33,7 @@ pub fn remesh_shape(
     data: &RemeshOptionsData,
     observer: &Observer,
 ) -> Result<RemeshedShapeData> {
-    let (shape, options) = guard(|| Ok((mesh(shape)?, remesh_options(data)?)))?;
+    let (shape, options) = guard(|| Ok((owned(shape)?, remesh_options(data)?)))?;
     let (pair, result) = run(observer, |context| make::remesh(&shape, &make_options(making), &options, context))?;
     guard(|| Ok(RemeshedShapeData { made: made(&pair)?, remeshed: remeshed(result)? }))
 }
@@ -90,11 +93,36 @@ fn hexes_data(hexes: Option<Hexes>) -> HexesData {
     let scaled_jacobian = hexes.as_ref().map_or_else(Vec::new, |h| h.quality().of_cell);
     let measures = hexes.as_ref().map(Hexes::measures).unwrap_or_default();
     let CellMeasures { edge_ratio, determinant, non_orthogonality, skewness } = measures;
+    let boundary = hexes.iter().flat_map(|h| &h.boundary).map(BoundaryFaceData::from).collect();
     let (mesh, block_id, label) = match hexes {
         Some(Hexes { mesh, block_id, label, .. }) => ((&mesh).into(), block_id, label),
         None => (MeshData::empty(), Vec::new(), Vec::new()),
     };
-    HexesData { mesh, block_id, label, scaled_jacobian, edge_ratio, determinant, non_orthogonality, skewness }
+    HexesData { mesh, block_id, label, boundary, scaled_jacobian, edge_ratio, determinant, non_orthogonality, skewness }
+}
+
+impl From<&BoundaryFace> for BoundaryFaceData {
+    fn from(side: &BoundaryFace) -> Self {
+        let HexFace { cell, face } = side.face;
+        Self { cell, face, label: side.label.index() as i8, facet: side.facet }
+    }
+}
+
+impl BoundaryFaceData {
+    fn read(&self) -> polycube::Result<BoundaryFace> {
+        let label = Label::new(self.label).ok_or_else(|| {
+            Error::new(ErrorKind::Mismatch, format!("{} is no label", self.label)).remedy("use 0 to 5")
+        })?;
+        Ok(BoundaryFace { face: HexFace { cell: self.cell, face: self.face }, label, facet: self.facet })
+    }
+}
+
+/// See `polycube::mesh::write_solver`.
+pub fn write_solver(path: &str, view: &MeshView, block_id: &[u32], boundary: &[BoundaryFaceData]) -> Result<()> {
+    guard(|| {
+        let boundary = boundary.iter().map(BoundaryFaceData::read).collect::<polycube::Result<Vec<_>>>()?;
+        mesh::write_solver(Path::new(path), &core::grouped(&owned(view)?, block_id, &boundary)?)
+    })
 }
 
 impl From<&RemeshReport> for RemeshReportData {

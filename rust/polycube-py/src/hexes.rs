@@ -1,10 +1,11 @@
 //! The hexahedra of a meshed shape.
 
 use crate::arrays::{flat, matrix, vector};
+use crate::errors;
 use crate::mesh::PyMesh;
 use polycube::measure::CellMeasures;
-use polycube::mesh::{CellField, Point};
-use polycube::remesh::Hexes;
+use polycube::mesh::{CellField, Point, SolverFormat, write_solver};
+use polycube::remesh::{BoundaryFace, Hexes, grouped};
 use pyo3::prelude::*;
 use std::path::PathBuf;
 use std::sync::Arc;
@@ -20,6 +21,7 @@ struct HexParts {
     fields: Vec<CellField>,
     label: Vec<i8>,
     block_id: Vec<u32>,
+    boundary: Vec<BoundaryFace>,
     scaled_jacobian: Vec<f64>,
     measures: CellMeasures,
 }
@@ -27,8 +29,10 @@ struct HexParts {
 impl From<Hexes> for PyHexes {
     fn from(hexes: Hexes) -> Self {
         let (fields, scaled_jacobian, measures) = (hexes.fields(), hexes.quality().of_cell, hexes.measures());
-        let Hexes { mesh, polycube, block_id, label, .. } = hexes;
-        Self(Arc::new(HexParts { mesh: mesh.into(), polycube, fields, label, block_id, scaled_jacobian, measures }))
+        let Hexes { mesh, polycube, block_id, label, boundary, .. } = hexes;
+        let mesh = mesh.into();
+        let parts = HexParts { mesh, polycube, fields, label, block_id, boundary, scaled_jacobian, measures };
+        Self(Arc::new(parts))
     }
 }
 
@@ -100,9 +104,18 @@ impl PyHexes {
         vector(slf, |h| &h.0.measures.skewness)
     }
 
-    /// Writes the mesh with `block_id`, `label` and `scaled_jacobian`, where the format holds them; see `Mesh.write`.
+    /// Writes the mesh whole or not at all. The extension tells the format: one of `Mesh.write`, which gets `block_id`,
+    /// `label`, `scaled_jacobian` and the other arrays where it holds them, or one for solvers, which gets blocks and
+    /// boundary by name (block_0 ...; facet_0 ..., and minus_x to plus_z for all facets that look one way on the
+    /// polycube): msh of Gmsh 4.1, inp of Abaqus and CalculiX, su2 of SU2, foam for the folder of an OpenFOAM case.
     fn write(&self, py: Python<'_>, path: PathBuf) -> PyResult<()> {
-        self.0.mesh.save(py, &path, &self.0.fields)
+        let HexParts { mesh, block_id, boundary, fields, .. } = &*self.0;
+        let extension = path.extension().unwrap_or_default().to_string_lossy();
+        if extension.parse::<SolverFormat>().is_err() {
+            return mesh.save(py, &path, fields);
+        }
+        let write = || write_solver(&path, &grouped(&mesh.0, block_id, boundary)?);
+        py.detach(write).map_err(|e| errors::about(py, &e, Some(&mesh.0)))
     }
 
     fn __repr__(&self) -> String {

@@ -96,7 +96,10 @@ def test_the_same_bytes_as_the_command(tmp_path, command, pair, meshes):
     files = tmp_path / "shape.mesh", tmp_path / "polycube.mesh"
     for mesh, path in zip(pair, files):
         mesh.write(path)
-    command("remesh", files[0], "--polycube", files[1], "-o", tmp_path / "out", "--hexes", 1500, "--max-hausdorff", 5)
+    solvers = ["msh", "inp", "su2", "foam"]
+    formats = [word for name in solvers for word in ("--format", name)]
+    size = ("--hexes", 1500, "--max-hausdorff", 5)
+    command("remesh", files[0], "--polycube", files[1], "-o", tmp_path / "out", *size, *formats)
     meshes.hexes.write(tmp_path / "hexes.vtu")
     meshes.hexes.mesh.write(tmp_path / "hexes.mesh")
     meshes.quads.mesh.write(tmp_path / "quads.obj")
@@ -104,9 +107,14 @@ def test_the_same_bytes_as_the_command(tmp_path, command, pair, meshes):
     blocks = len(meshes.layout.blocks.cells)
     meshes.layout.blocks.write(tmp_path / "layout.vtk", {"block_id": np.arange(blocks)})
     meshes.simplified.polycube.write(tmp_path / "own.mesh")
-    names = ["hexes.vtu", "quads.obj", "layout.obj", "layout.vtk"]
+    for extension in solvers:
+        meshes.hexes.write(tmp_path / f"hexes.{extension}")
+    names = ["hexes.vtu", "quads.obj", "layout.obj", "layout.vtk", "hexes.msh", "hexes.inp", "hexes.su2"]
     for own, theirs in [*zip(names, names), ("own.mesh", "polycube.mesh")]:
         assert (tmp_path / own).read_bytes() == (tmp_path / "out" / theirs).read_bytes(), theirs
+    case = tmp_path / "hexes.foam" / "constant" / "polyMesh"
+    for own in ["points", "faces", "owner", "neighbour", "boundary", "cellZones"]:
+        assert (case / own).read_bytes() == (tmp_path / "out/foam/constant/polyMesh" / own).read_bytes(), own
     again = polycube.read(tmp_path / "out" / "hexes.mesh")
     assert np.array_equal(again.points, meshes.hexes.points)
     assert np.array_equal(again.cells, meshes.hexes.cells)

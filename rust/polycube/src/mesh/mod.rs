@@ -16,7 +16,7 @@ pub use groups::{GroupedHexes, Groups};
 pub use hexahedron::HexFace;
 pub use io::{
     CellField, FieldValues, Format, LabelOrder, SolverFormat, Staged, parse_labels, read, read_bytes, read_labels,
-    read_labels_of, read_pair, write, write_atomically, write_bytes, write_labels, write_solver,
+    read_labels_of, read_pair, write, write_atomically, write_bytes, write_labels, write_solver, write_solver_bytes,
 };
 pub use simplices::{Face, Simplices};
 pub(crate) use stars::Stars;

@@ -4,7 +4,7 @@ use crate::failure::Result;
 use crate::input::meshes::MeshFiles;
 use crate::options::format::{OutputFormat, solver_formats};
 use crate::output::colour;
-use polycube::mesh::{CellField, CellKind, Format, Mesh, SolverFormat, write_solver};
+use polycube::mesh::{CellField, CellKind, Format, Mesh, SolverFormat, write_solver_bytes};
 use polycube::remesh::Remeshed;
 use polycube::{Error, ErrorKind};
 use std::path::Path;
@@ -112,7 +112,7 @@ pub fn files<'a>(result: &'a Remeshed, formats: &Formats) -> Vec<File<'a>> {
 pub fn solver_files(result: &Remeshed, formats: &Formats) -> Result<Vec<(String, Vec<u8>)>> {
     let Some(hexes) = result.hexes.as_ref().filter(|_| !formats.solvers.is_empty()) else { return Ok(Vec::new()) };
     let grouped = hexes.grouped()?;
-    Ok(formats.solvers.iter().flat_map(|&format| write_solver(format, HEXES, &grouped)).collect())
+    Ok(formats.solvers.iter().flat_map(|&format| write_solver_bytes(format, HEXES, &grouped)).collect())
 }
 
 /// The names of all files for solvers that there may be.

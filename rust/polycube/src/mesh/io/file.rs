@@ -102,7 +102,7 @@ impl Staged {
     }
 }
 
-fn io_error(action: &str, path: &Path, error: &io::Error) -> Error {
+pub(super) fn io_error(action: &str, path: &Path, error: &io::Error) -> Error {
     let remedy = match error.kind() {
         io::ErrorKind::NotFound if action == "write" => "create the folder first",
         io::ErrorKind::NotFound => "check the path",

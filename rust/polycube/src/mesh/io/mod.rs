@@ -27,7 +27,7 @@ pub use format::Format;
 pub use label_order::LabelOrder;
 pub use labels::{parse_labels, read_labels, read_labels_of, write_labels};
 pub use pair::read_pair;
-pub use solver::{SolverFormat, write_solver};
+pub use solver::{SolverFormat, write_solver, write_solver_bytes};
 
 use super::Mesh;
 use crate::error::{Error, ErrorKind, Result};

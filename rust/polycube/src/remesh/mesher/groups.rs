@@ -2,42 +2,50 @@
 
 use super::hexes::Hexes;
 use crate::error::Result;
-use crate::mesh::{GroupedHexes, Groups};
+use crate::mesh::{GroupedHexes, Groups, Mesh};
+use crate::remesh::lattice::BoundaryFace;
 use crate::structure::Label;
 
 impl Hexes {
-    /// The mesh with names for what solvers ask for: `block_0`, `block_1` … for its blocks, numbered as in
-    /// [`block_id`](Self::block_id); on the outside `facet_0`, `facet_1` … for the facets of the polycube, and
-    /// `minus_x`, `plus_x`, `minus_y`, `plus_y`, `minus_z` and `plus_z` for all facets that look that way on the
-    /// polycube. O(n log n) for n hexahedra.
-    ///
-    /// ```
-    /// use polycube::generate::{Example, example};
-    /// use polycube::mesh::{CellKind, SolverFormat, write_solver};
-    /// use polycube::remesh::{RemeshOptions, Size, remesh};
-    /// use polycube::{Context, Input};
-    ///
-    /// let (cube, shape) = example(Example::SteppedL, 1, CellKind::Quads)?;
-    /// let input = Input { polycube: &cube, shape: Some(&shape), labels: None };
-    /// let options = RemeshOptions { size: Some(Size::Hexes(400)), ..RemeshOptions::default() };
-    /// let hexes = remesh(&input, &options, &Context::default())?.hexes.expect("not of the surface alone");
-    ///
-    /// let files = write_solver(SolverFormat::Msh, "hexes", &hexes.grouped()?);
-    /// assert_eq!(files[0].0, "hexes.msh");
-    /// # Ok::<(), polycube::Error>(())
-    /// ```
+    /// The mesh with the names of its parts; see [`grouped`].
     ///
     /// # Errors
-    /// Those of [`GroupedHexes::new`], where the fields were changed.
+    /// Those of [`grouped`], where the fields were changed.
     pub fn grouped(&self) -> Result<GroupedHexes<'_>> {
-        let faces = self.boundary.iter().map(|side| side.face).collect();
-        let facets = self.boundary.iter().map(|side| side.facet).collect();
-        let sides = self.boundary.iter().map(|side| number(side.label)).collect();
-        let names = ["minus_x", "plus_x", "minus_y", "plus_y", "minus_z", "plus_z"].map(str::to_owned);
-        let blocks = Groups::numbered("block", self.block_id.clone())?;
-        let sides = Groups::new(names.to_vec(), sides)?;
-        GroupedHexes::new(&self.mesh, blocks, faces, Groups::numbered("facet", facets)?, sides)
+        grouped(&self.mesh, &self.block_id, &self.boundary)
     }
+}
+
+/// Hexahedra with names for what solvers ask for: `block_0`, `block_1` … for the blocks that `block_id` tells of each;
+/// on the outside `facet_0`, `facet_1` … for the facets of the polycube, and `minus_x`, `plus_x`, `minus_y`, `plus_y`,
+/// `minus_z` and `plus_z` for all facets that look that way on the polycube. O(n log n) for n hexahedra.
+///
+/// ```
+/// use polycube::generate::{Example, example};
+/// use polycube::mesh::{CellKind, SolverFormat, write_solver_bytes};
+/// use polycube::remesh::{RemeshOptions, Size, remesh};
+/// use polycube::{Context, Input};
+///
+/// let (cube, shape) = example(Example::SteppedL, 1, CellKind::Quads)?;
+/// let input = Input { polycube: &cube, shape: Some(&shape), labels: None };
+/// let options = RemeshOptions { size: Some(Size::Hexes(400)), ..RemeshOptions::default() };
+/// let hexes = remesh(&input, &options, &Context::default())?.hexes.expect("not of the surface alone");
+///
+/// let files = write_solver_bytes(SolverFormat::Msh, "hexes", &hexes.grouped()?);
+/// assert_eq!(files[0].0, "hexes.msh");
+/// # Ok::<(), polycube::Error>(())
+/// ```
+///
+/// # Errors
+/// Those of [`GroupedHexes::new`].
+pub fn grouped<'a>(mesh: &'a Mesh, block_id: &[u32], boundary: &[BoundaryFace]) -> Result<GroupedHexes<'a>> {
+    let faces = boundary.iter().map(|side| side.face).collect();
+    let facets = boundary.iter().map(|side| side.facet).collect();
+    let sides = boundary.iter().map(|side| number(side.label)).collect();
+    let names = ["minus_x", "plus_x", "minus_y", "plus_y", "minus_z", "plus_z"].map(str::to_owned);
+    let blocks = Groups::numbered("block", block_id.to_vec())?;
+    let sides = Groups::new(names.to_vec(), sides)?;
+    GroupedHexes::new(mesh, blocks, faces, Groups::numbered("facet", facets)?, sides)
 }
 
 /// The number of a direction's name.

@@ -7,6 +7,7 @@ mod layout;
 mod quads;
 mod remesher;
 
+pub use groups::grouped;
 pub use hexes::Hexes;
 #[cfg(test)]
 pub(crate) use hexes::MAX_PADDING;

@@ -4,6 +4,9 @@ use crate::mesh::hexahedron::FACES;
 use crate::mesh::io::text::Text;
 use crate::mesh::{GroupedHexes, HexFace};
 
+/// Where the mesh lies in a case.
+pub(super) const FOLDER: &str = "constant/polyMesh";
+
 /// The files of a mesh, in the order of [`write`].
 pub(super) const FILES: [&str; 6] = ["points", "faces", "owner", "neighbour", "boundary", "cellZones"];
 

@@ -8,10 +8,12 @@ mod su2;
 #[cfg(test)]
 mod tests;
 
+use super::file::{Staged, io_error, write_atomically};
 use crate::error::{Error, ErrorKind, Result};
 use crate::mesh::GroupedHexes;
-use std::fmt;
+use std::path::Path;
 use std::str::FromStr;
+use std::{fmt, fs, io};
 
 /// A format that solvers read, with names for blocks and for the groups of the outside.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
@@ -42,10 +44,10 @@ impl SolverFormat {
         }
     }
 
-    /// The files that [`write_solver`] gives for `name`, with the folders that they lie in, separated by `/`.
+    /// The files that [`write_solver_bytes`] gives for `name`, with the folders that they lie in, separated by `/`.
     pub fn files(self, name: &str) -> Vec<String> {
         match self {
-            Self::Foam => foam::FILES.map(|file| format!("{self}/constant/polyMesh/{file}")).to_vec(),
+            Self::Foam => foam::FILES.map(|file| format!("{self}/{}/{file}", foam::FOLDER)).to_vec(),
             _ => vec![format!("{name}.{self}")],
         }
     }
@@ -73,12 +75,42 @@ impl FromStr for SolverFormat {
 
 /// The files of a mesh for a solver, each with its name: `NAME.EXT`, and of OpenFOAM those of a case in a folder
 /// `foam`. The same mesh always gives the same bytes. O(n log n) for n hexahedra.
-pub fn write_solver(format: SolverFormat, name: &str, hexes: &GroupedHexes) -> Vec<(String, Vec<u8>)> {
-    let bytes = match format {
+pub fn write_solver_bytes(format: SolverFormat, name: &str, hexes: &GroupedHexes) -> Vec<(String, Vec<u8>)> {
+    format.files(name).into_iter().zip(bytes(format, hexes)).collect()
+}
+
+/// The bytes of each file.
+fn bytes(format: SolverFormat, hexes: &GroupedHexes) -> Vec<Vec<u8>> {
+    match format {
         SolverFormat::Msh => vec![msh::write(hexes)],
         SolverFormat::Inp => vec![inp::write(hexes)],
         SolverFormat::Su2 => vec![su2::write(hexes)],
         SolverFormat::Foam => foam::write(hexes).to_vec(),
-    };
-    format.files(name).into_iter().zip(bytes).collect()
+    }
+}
+
+/// Writes a mesh for the solver that the extension of `path` names, whole or not at all. `NAME.foam` is the folder of a
+/// case, whose `constant/polyMesh` is written; what else is in it stays.
+///
+/// # Errors
+/// [`ErrorKind::Unsupported`] for another extension; [`ErrorKind::Io`] naming the file.
+pub fn write_solver(path: &Path, hexes: &GroupedHexes) -> Result<()> {
+    let format: SolverFormat = path.extension().unwrap_or_default().to_string_lossy().parse()?;
+    let bytes = bytes(format, hexes);
+    if format != SolverFormat::Foam {
+        return bytes.iter().try_for_each(|bytes| write_atomically(path, bytes));
+    }
+    let is_new = !path.exists();
+    let done = write_case(&path.join(foam::FOLDER), &bytes);
+    if done.is_err() && is_new {
+        // There may be nothing.
+        let _ = fs::remove_dir_all(path);
+    }
+    done.map_err(|error| io_error("write", path, &error))
+}
+
+fn write_case(folder: &Path, bytes: &[Vec<u8>]) -> io::Result<()> {
+    fs::create_dir_all(folder)?;
+    let staged = bytes.iter().map(|bytes| Staged::new(folder, bytes)).collect::<io::Result<Vec<_>>>()?;
+    foam::FILES.iter().zip(staged).try_for_each(|(name, file)| file.publish(&folder.join(name)))
 }

@@ -56,8 +56,8 @@ fn grouped(mesh: &Mesh) -> GroupedHexes<'_> {
 }
 
 fn texts(format: SolverFormat, hexes: &GroupedHexes) -> Vec<String> {
-    let files = write_solver(format, "box", hexes);
-    assert_eq!(files, write_solver(format, "box", hexes));
+    let files = write_solver_bytes(format, "box", hexes);
+    assert_eq!(files, write_solver_bytes(format, "box", hexes));
     files.into_iter().map(|(_, bytes)| String::from_utf8(bytes).unwrap()).collect()
 }
 
@@ -85,12 +85,38 @@ fn array<const N: usize>(numbers: &[u32], first: u32) -> [u32; N] {
     std::array::from_fn(|k| numbers[k] - first)
 }
 
+/// What is written to the disk is what there are bytes of; a case keeps what else is in it, and what cannot be written
+/// leaves nothing.
+#[test]
+fn files_are_written_whole_or_not_at_all() {
+    let (folder, mesh) = (tempfile::tempdir().unwrap(), box_mesh());
+    let hexes = grouped(&mesh);
+    for format in SolverFormat::ALL {
+        let path = folder.path().join(format!("box.{format}"));
+        write_solver(&path, &hexes).unwrap();
+        for (name, bytes) in write_solver_bytes(format, "box", &hexes) {
+            let within = name.strip_prefix("foam/").map_or_else(|| path.clone(), |rest| path.join(rest));
+            assert!(fs::read(&within).unwrap() == bytes, "{}", within.display());
+        }
+    }
+    let (case, own) = (folder.path().join("box.foam"), folder.path().join("box.foam/constant/g"));
+    fs::write(&own, "uniform").unwrap();
+    write_solver(&case, &hexes).unwrap();
+    assert!(own.exists());
+    assert_eq!(fs::read_dir(case.join("constant/polyMesh")).unwrap().count(), 6);
+    fs::write(folder.path().join("file"), "").unwrap();
+    for name in ["file/case.foam", "file/box.msh"] {
+        assert_eq!(write_solver(&folder.path().join(name), &hexes).unwrap_err().kind, ErrorKind::Io, "{name}");
+    }
+    assert_eq!(write_solver(&folder.path().join("box.obj"), &hexes).unwrap_err().kind, ErrorKind::Unsupported);
+}
+
 #[test]
 fn files_have_names_and_formats_are_read_back() {
     for format in SolverFormat::ALL {
         assert_eq!(format.to_string().to_uppercase().parse(), Ok(format));
         let written: Vec<String> =
-            write_solver(format, "box", &grouped(&box_mesh())).into_iter().map(|(name, _)| name).collect();
+            write_solver_bytes(format, "box", &grouped(&box_mesh())).into_iter().map(|(name, _)| name).collect();
         assert_eq!(written, format.files("box"));
     }
     assert_eq!(SolverFormat::Inp.files("box"), ["box.inp"]);
