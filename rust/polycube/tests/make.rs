@@ -3,7 +3,7 @@
 mod common;
 
 use common::{cases, coarse, data, dense};
-use nalgebra::Matrix2;
+use nalgebra::{Matrix2, Rotation3, Vector3};
 use polycube::generate::{Cuboid, Example, Voxels, example, random_polycube};
 use polycube::make::{Made, MakeOptions, make};
 use polycube::mesh::{CellKind, Cells, Mesh, Point, Simplices, read, write_bytes};
@@ -151,6 +151,38 @@ fn the_same_shape_gives_the_same_bytes_for_any_number_of_threads() {
         [&found.shape, &found.polycube].map(|m| write_bytes(polycube::mesh::Format::Obj, m, &[]).unwrap())
     };
     assert!(bytes(1) == bytes(3));
+}
+
+/// What has sharp creases between faces along the axes is its own polycube: nothing is squashed, and no face looks
+/// elsewhere, however it is cut into triangles. Turned a little, it still has the creases of one.
+#[test]
+fn the_faces_between_sharp_creases_are_the_facets() {
+    let bracket = Voxels::from_boxes(&[Cuboid::new([0, 0, 0], [6, 2, 1]), Cuboid::new([0, 0, 1], [1, 2, 5])]).unwrap();
+    let frame =
+        Voxels::from_difference(&[Cuboid::new([0, 0, 0], [3, 3, 1])], &[Cuboid::new([1, 1, 0], [2, 2, 1])]).unwrap();
+    let cube = Voxels::from_boxes(&[Cuboid::new([0, 0, 0], [1, 1, 1])]).unwrap();
+    for (voxels, corners, step) in [(cube, 8, 2.0), (bracket.clone(), 12, 1.0), (bracket, 12, 0.5), (frame, 16, 1.0)] {
+        let shape = voxels.mesh(CellKind::Triangles, step).unwrap();
+        let found = made(&shape, "a polycube");
+        assert_good(&shape, &found, "a polycube");
+        let report = &found.report;
+        assert_eq!((report.corners, report.folded.len()), (corners, 0));
+        assert!(report.misfit < 1e-12 && report.squashed < 1e-12, "{report:?}");
+        let turn = Rotation3::from_scaled_axis(Vector3::new(0.1, -0.2, 0.3));
+        let turned = shape.moved(|p| turn * p).unwrap();
+        let found = made(&turned, "a polycube, turned");
+        assert_good(&turned, &found, "a polycube, turned");
+        assert_eq!((found.report.corners, found.report.folded.len()), (corners, 0));
+    }
+}
+
+#[test]
+fn creases_give_way_where_fewer_corners_are_asked_for() {
+    let bracket = Voxels::from_boxes(&[Cuboid::new([0, 0, 0], [6, 2, 1]), Cuboid::new([0, 0, 1], [1, 2, 2])]).unwrap();
+    let shape = bracket.mesh(CellKind::Triangles, 0.5).unwrap();
+    let few = make(&shape, &MakeOptions { corners: Some(8), ..MakeOptions::default() }, &Context::default()).unwrap();
+    assert_good(&shape, &few, "a bracket");
+    assert_eq!(few.report.corners, 8);
 }
 
 #[test]

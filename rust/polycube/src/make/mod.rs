@@ -22,11 +22,16 @@ use crate::mesh::{Face, Mesh};
 use crate::structure::Surface;
 use charts::ChartedSurface;
 use embedding::{Embedded, Levels};
+use labelled::Labelled;
 use loops::{Candidate, LoopOptions};
 use std::time::Instant;
 
 /// Embedded candidates with folds after which no more are tried.
 const MOST_EMBEDDED: usize = 3;
+/// No polycube has fewer corners.
+const FEWEST_CORNERS: usize = 8;
+/// What fewer corners may be worth, as a share of the surface, where creases show a polycube already.
+const LITTLE: f64 = 0.1;
 
 /// How a polycube is made.
 #[derive(Clone, Debug, PartialEq, serde::Serialize)]
@@ -63,6 +68,10 @@ impl MakeOptions {
             .in_option("detail")
             .remedy("give a number from 0, as few corners as can be, to 1"))
     }
+
+    fn for_loops(&self) -> LoopOptions {
+        LoopOptions { detail: self.detail, corners: self.corners }
+    }
 }
 
 /// A polycube and its shape, with the same triangles.
@@ -95,7 +104,8 @@ impl Made {
 ///
 /// Self-intersections of the shape do not matter. Some seconds for 20,000 triangles.
 ///
-/// Where [`MakeOptions::labels`] are given, the structure is theirs.
+/// Where [`MakeOptions::labels`] are given, the structure is theirs. Where sharp creases cut the surface into faces of a
+/// polycube, as those of a box or a bracket do, it is that of the creases, at once.
 ///
 /// ```
 /// use polycube::Context;
@@ -126,12 +136,14 @@ pub fn make(shape: &Mesh, options: &MakeOptions, context: &Context) -> Result<Ma
     let clock = Instant::now();
     context.tick(0.0)?;
     let surface = surface(shape)?;
-    let drawn = match &options.labels {
-        Some(labels) => Drawn::labelled(shape, &surface, labels),
-        None => Drawn::found(shape, &surface, options, &context.stage("loops", 0.0, 0.5)),
-    }?;
-    let structure = clock.elapsed().as_secs_f64();
-    let embedded = drawn.embed(&context.stage("embed", 0.5, 1.0)).map_err(|error| of_face(error, &surface))?;
+    let found = match &options.labels {
+        Some(labels) => of_labels(shape, &surface, labels, context),
+        None => match of_creases(shape, &surface, options, &context.stage("embed", 0.0, 0.1))? {
+            Some(found) => Ok(found),
+            None => of_loops(shape, &surface, options, &context.stage("loops", 0.1, 1.0)),
+        },
+    };
+    let Found { embedded, structure } = found.map_err(|error| of_face(error, &surface))?;
     let total = clock.elapsed().as_secs_f64();
     finish(shape, embedded, MakeSeconds { structure, embedding: total - structure, total })
 }
@@ -145,39 +157,59 @@ fn of_face(mut error: Error, surface: &Surface) -> Error {
     error
 }
 
-/// What can be embedded.
-enum Drawn {
-    /// The charts of labels, and in which order their levels lie.
-    Labelled(Box<(ChartedSurface, Levels)>),
-    /// Sets of loops and the charts that they stand for, cheapest first: by what their labels cost and how many corners
-    /// they have.
-    Found(Vec<Candidate<ChartedSurface>>),
+/// A polycube with its map.
+struct Found {
+    embedded: Embedded,
+    /// Seconds until its structure was known.
+    structure: f64,
 }
 
-impl Drawn {
-    fn labelled(shape: &Mesh, surface: &Surface, labels: &[i8]) -> Result<Self> {
-        Ok(Self::Labelled(Box::new(labelled::read(shape, surface, labels)?)))
-    }
+fn of_labels(shape: &Mesh, surface: &Surface, labels: &[i8], context: &Context) -> Result<Found> {
+    let clock = Instant::now();
+    let Labelled { charts, levels, .. } = labelled::read(shape, surface, labels)?;
+    let structure = clock.elapsed().as_secs_f64();
+    Ok(Found { embedded: embedding::embed(&charts, levels, context)?, structure })
+}
 
-    fn found(shape: &Mesh, surface: &Surface, options: &MakeOptions, context: &Context) -> Result<Self> {
-        let triangles: Vec<[u32; 3]> = surface.faces().iter().flat_map(Face::triangles).collect();
-        let wanted = LoopOptions { detail: options.detail, corners: options.corners };
-        let candidates = loops::loops(shape.points(), &triangles, &wanted, context, |set| {
-            let drawn = charts::charts(shape.points(), &triangles, set, context)?;
-            Ok((drawn.cost() + wanted.price_of_corner() * set.corners as f64, drawn))
-        });
-        candidates.map(Self::Found).map_err(|error| of_face(error, surface))
+/// The polycube that sharp creases show, if they show one that the map fits without folds and if no other could be worth
+/// much more: no labels suit the normals better, so that all there is to be had is fewer corners.
+fn of_creases(shape: &Mesh, surface: &Surface, options: &MakeOptions, context: &Context) -> Result<Option<Found>> {
+    let clock = Instant::now();
+    let Some(Labelled { charts, levels, corners }) = labelled::creased(shape, surface) else { return Ok(None) };
+    let spared = corners.saturating_sub(FEWEST_CORNERS) as f64;
+    let too_many = options.corners.is_some_and(|most| corners > most);
+    if too_many || spared * options.for_loops().price_of_corner() > LITTLE {
+        return Ok(None);
     }
+    let structure = clock.elapsed().as_secs_f64();
+    match embedding::embed(&charts, levels, context) {
+        Ok(embedded) if embedded.folded.is_empty() => Ok(Some(Found { embedded, structure })),
+        Err(error) if error.kind == ErrorKind::Cancelled => Err(error),
+        _ => Ok(None),
+    }
+}
 
-    fn embed(self, context: &Context) -> Result<Embedded> {
-        match self {
-            Self::Found(candidates) => embed_best(&candidates, context),
-            Self::Labelled(drawn) => {
-                let (charts, levels) = *drawn;
-                embedding::embed(&charts, levels, context)
-            }
-        }
-    }
+fn of_loops(shape: &Mesh, surface: &Surface, options: &MakeOptions, context: &Context) -> Result<Found> {
+    let clock = Instant::now();
+    let triangles: Vec<[u32; 3]> = surface.faces().iter().flat_map(Face::triangles).collect();
+    let candidates = draw(shape, &triangles, options, &context.stage("loops", 0.0, 0.5))?;
+    let structure = clock.elapsed().as_secs_f64();
+    Ok(Found { embedded: embed_best(&candidates, &context.stage("embed", 0.5, 1.0))?, structure })
+}
+
+/// Sets of loops and the charts that they stand for, cheapest first: by what their labels cost and how many corners
+/// they have.
+fn draw(
+    shape: &Mesh,
+    triangles: &[[u32; 3]],
+    options: &MakeOptions,
+    context: &Context,
+) -> Result<Vec<Candidate<ChartedSurface>>> {
+    let wanted = options.for_loops();
+    loops::loops(shape.points(), triangles, &wanted, context, |set| {
+        let drawn = charts::charts(shape.points(), triangles, set, context)?;
+        Ok((drawn.cost() + wanted.price_of_corner() * set.corners as f64, drawn))
+    })
 }
 
 /// The first candidate that can be embedded without folds; if there is none, the least folded of the first few.

@@ -69,11 +69,6 @@ impl LoopOptions {
         if self.corners.is_some() { f64::INFINITY } else { self.price_of_corner() }
     }
 
-    /// What no polycube is under: that of a box, which looks along its axes. There is nothing more to be found then.
-    fn least_cost(&self) -> f64 {
-        FEWEST_CORNERS * self.price_of_corner() + TINY
-    }
-
     /// The same without regard to how many corners shall be left.
     pub(crate) fn price_of_corner(&self) -> f64 {
         0.04 * libm::pow(625.0, -self.detail)
@@ -107,12 +102,8 @@ const ATTEMPTS: [Attempt; 10] = [
     Attempt { levels: 16, reach: 0.5, smooth: 0.2 },
     Attempt { levels: 24, reach: 0.05, smooth: 0.4 },
 ];
-/// Attempts that are compared; the last of them is the quickest.
+/// Attempts that are compared.
 const COMPARED: usize = 6;
-/// No polycube has fewer corners.
-const FEWEST_CORNERS: f64 = 8.0;
-/// A share of the surface that is nothing.
-const TINY: f64 = 1e-9;
 
 /// A valid set of loops, what it costs, and what came of it when that was found out.
 #[derive(Clone, Debug)]
@@ -122,8 +113,7 @@ pub(crate) struct Candidate<T> {
     pub(crate) drawn: T,
 }
 
-/// Valid sets of few loops on a closed, oriented, manifold surface, cheapest first. `judge` says what a set costs: its
-/// labels and its corners. Of a box there is only one, as none is cheaper.
+/// Valid sets of few loops on a closed, oriented, manifold surface, cheapest first. `judge` says what a set costs.
 ///
 /// # Errors
 /// [`ErrorKind::Polycube`] with the face where no valid start was found, [`ErrorKind::Cancelled`]; those of `judge`.
@@ -143,15 +133,9 @@ pub(crate) fn loops<T: Send>(
         let (cost, drawn) = judge(&loops)?;
         Ok(Ok(Candidate { cost, loops, drawn }))
     };
-    let quickest = try_one(&ATTEMPTS[COMPARED - 1])?;
-    if let Ok(found) = &quickest
-        && found.cost <= options.least_cost()
-    {
-        return Ok(quickest.into_iter().collect());
-    }
-    let mut tried = ATTEMPTS[..COMPARED - 1].par_iter().map(try_one).collect::<Result<Vec<_>>>()?;
-    tried.push(quickest);
-    for attempt in &ATTEMPTS[COMPARED..] {
+    let (first, others) = ATTEMPTS.split_at(COMPARED);
+    let mut tried = first.par_iter().map(try_one).collect::<Result<Vec<_>>>()?;
+    for attempt in others {
         if tried.iter().any(|one| one.is_ok()) {
             break;
         }

@@ -74,25 +74,6 @@ fn a_box_has_eight_corners() {
     assert_eq!(set.graph.loops.iter().filter(|l| l.alive).count(), 3);
 }
 
-/// Of a box the quickest attempt finds what is best, so that no other is made; of what is no box all are.
-#[test]
-fn a_box_is_looked_for_once() {
-    let attempts = |mesh: &Mesh| {
-        let options = LoopOptions::default();
-        let count = std::sync::atomic::AtomicUsize::new(0);
-        let judge = |set: &LoopSet| {
-            count.fetch_add(1, std::sync::atomic::Ordering::Relaxed);
-            Ok((options.price_of_corner() * set.corners as f64, ()))
-        };
-        loops(mesh.points(), &triangles(mesh), &options, &Context::default(), judge).expect("there are loops");
-        count.into_inner()
-    };
-    let solid = |boxes: &[Cuboid]| Voxels::from_boxes(boxes).unwrap().mesh(CellKind::Triangles, 1.0).unwrap();
-    let box_alone = Cuboid::new([0, 0, 0], [3, 2, 2]);
-    assert_eq!(attempts(&solid(&[box_alone])), 1);
-    assert_eq!(attempts(&solid(&[box_alone, Cuboid::new([0, 0, 2], [1, 2, 4])])), COMPARED);
-}
-
 #[test]
 fn plates_of_genus_0_to_12_are_valid_after_every_step() {
     for holes in [0, 1, 2, 5, 12] {
