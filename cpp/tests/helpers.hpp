@@ -49,6 +49,8 @@ inline polycube::RemeshOptions coarse() {
     polycube::RemeshOptions options;
     options.simplify = quick();
     options.size = polycube::Size{polycube::Size::Kind::hexes, 1500.0};
+    // So few cannot be near to the shape, and no other blocks are looked for in vain.
+    options.max_hausdorff = 1.0;
     return options;
 }
 

@@ -107,15 +107,15 @@ fn a_plate_keeps_the_corners_of_its_holes() {
 }
 
 #[test]
-fn examples_have_valid_loops_at_every_detail() {
+fn examples_have_valid_loops_at_little_and_much_detail() {
     for one in Example::ALL {
         let (_, shape) = example(one, 1, CellKind::Triangles).unwrap();
-        let corners = [0.1, 0.5, 0.9].map(|detail| {
+        let corners = [0.1, 0.9].map(|detail| {
             let set = loops_of(&shape, &LoopOptions { detail, corners: None });
             check_set(&set);
             set.corners
         });
-        assert!(corners[0] <= corners[1] && corners[1] <= corners[2], "{one}: {corners:?}");
+        assert!(corners[0] <= corners[1], "{one}: {corners:?}");
     }
 }
 
