@@ -104,8 +104,8 @@ impl Made {
 ///
 /// Self-intersections of the shape do not matter. Some seconds for 20,000 triangles.
 ///
-/// Where [`MakeOptions::labels`] are given, the structure is theirs. Where sharp creases cut the surface into faces of a
-/// polycube, as those of a box or a bracket do, it is that of the creases, at once.
+/// Where [`MakeOptions::labels`] are given, the structure is theirs. Where sharp creases cut the surface into the faces
+/// of a polycube, as those of a box or a bracket do, it is that of the creases, at once.
 ///
 /// ```
 /// use polycube::Context;
@@ -171,8 +171,8 @@ fn of_labels(shape: &Mesh, surface: &Surface, labels: &[i8], context: &Context) 
     Ok(Found { embedded: embedding::embed(&charts, levels, context)?, structure })
 }
 
-/// The polycube that sharp creases show, if they show one that the map fits without folds and if no other could be worth
-/// much more: no labels suit the normals better, so that all there is to be had is fewer corners.
+/// The polycube that sharp creases show, if they show one that the map fits without folds and if no other could be
+/// worth much more: no labels suit the normals better, so that all there is to be had is fewer corners.
 fn of_creases(shape: &Mesh, surface: &Surface, options: &MakeOptions, context: &Context) -> Result<Option<Found>> {
     let clock = Instant::now();
     let Some(Labelled { charts, levels, corners }) = labelled::creased(shape, surface) else { return Ok(None) };
