@@ -136,14 +136,13 @@ pub fn make(shape: &Mesh, options: &MakeOptions, context: &Context) -> Result<Ma
     let clock = Instant::now();
     context.tick(0.0)?;
     let surface = surface(shape)?;
-    let found = match &options.labels {
-        Some(labels) => of_labels(shape, &surface, labels, context),
+    let Found { embedded, structure } = match &options.labels {
+        Some(labels) => of_labels(shape, &surface, labels, context)?,
         None => match of_creases(shape, &surface, options, &context.stage("embed", 0.0, 0.1))? {
-            Some(found) => Ok(found),
-            None => of_loops(shape, &surface, options, &context.stage("loops", 0.1, 1.0)),
+            Some(found) => found,
+            None => of_loops(shape, &surface, options, &context.stage("loops", 0.1, 1.0))?,
         },
     };
-    let Found { embedded, structure } = found.map_err(|error| of_face(error, &surface))?;
     let total = clock.elapsed().as_secs_f64();
     finish(shape, embedded, MakeSeconds { structure, embedding: total - structure, total })
 }
@@ -168,7 +167,8 @@ fn of_labels(shape: &Mesh, surface: &Surface, labels: &[i8], context: &Context) 
     let clock = Instant::now();
     let Labelled { charts, levels, .. } = labelled::read(shape, surface, labels)?;
     let structure = clock.elapsed().as_secs_f64();
-    Ok(Found { embedded: embedding::embed(&charts, levels, context)?, structure })
+    let embedded = embedding::embed(&charts, levels, context).map_err(|error| of_face(error, surface))?;
+    Ok(Found { embedded, structure })
 }
 
 /// The polycube that sharp creases show, if they show one that the map fits without folds and if no other could be
@@ -192,9 +192,11 @@ fn of_creases(shape: &Mesh, surface: &Surface, options: &MakeOptions, context: &
 fn of_loops(shape: &Mesh, surface: &Surface, options: &MakeOptions, context: &Context) -> Result<Found> {
     let clock = Instant::now();
     let triangles: Vec<[u32; 3]> = surface.faces().iter().flat_map(Face::triangles).collect();
-    let candidates = draw(shape, &triangles, options, &context.stage("loops", 0.0, 0.5))?;
+    let named = |error| of_face(error, surface);
+    let candidates = draw(shape, &triangles, options, &context.stage("loops", 0.0, 0.5)).map_err(named)?;
     let structure = clock.elapsed().as_secs_f64();
-    Ok(Found { embedded: embed_best(&candidates, &context.stage("embed", 0.5, 1.0))?, structure })
+    let embedded = embed_best(&candidates, &context.stage("embed", 0.5, 1.0)).map_err(named)?;
+    Ok(Found { embedded, structure })
 }
 
 /// Sets of loops and the charts that they stand for, cheapest first: by what their labels cost and how many corners
