@@ -139,6 +139,7 @@ struct Remeshed {
 /// const polycube::Remeshed result = polycube::remesh({cube, shape}, options);
 /// for (const std::string& fault : result.report.faults) std::clog << fault << '\n';
 /// polycube::write_mesh("hexes.vtu", result.hexes->mesh, result.hexes->fields());
+/// polycube::write_solver("hexes.msh", *result.hexes);
 /// polycube::write_mesh("layout.vtk", result.layout.blocks, result.layout.block_fields());
 /// @endcode
 ///
@@ -154,10 +155,6 @@ Remeshed remesh(const Mesh& shape, const RemeshOptions& options = {}, const Cont
 /// Writes hexahedra for the solver that the extension names, whole or not at all, with blocks and boundary by name
 /// (block_0 ...; facet_0 ..., and minus_x to plus_z for all facets that look one way on the polycube): msh of Gmsh 4.1,
 /// inp of Abaqus and CalculiX, su2 of SU2 (boundary only), foam for the folder of an OpenFOAM case.
-///
-/// @code
-/// polycube::write_solver("hexes.msh", *result.hexes);
-/// @endcode
 ///
 /// @throws Error io, unsupported (another extension), mismatch (the boundary is not that of the mesh).
 void write_solver(const std::string& path, const HexMesh& hexes);
