@@ -5,8 +5,9 @@ mod common;
 use common::{cases, coarse, data, dense};
 use nalgebra::{Matrix2, Rotation3, Vector3};
 use polycube::generate::{Cuboid, Example, Voxels, example, random_polycube};
-use polycube::make::{Made, MakeOptions, make};
+use polycube::make::{self, Made, MakeOptions, make};
 use polycube::mesh::{CellKind, Cells, Mesh, Point, Simplices, read, write_bytes};
+use polycube::remesh::{RemeshOptions, Size, Stages};
 use polycube::structure::{Polycube, Tolerance};
 use polycube::{Context, ErrorKind, Place};
 use std::path::PathBuf;
@@ -192,6 +193,16 @@ fn corners_are_taken_away_until_few_are_left() {
     let few = make(&shape, &options, &Context::default()).unwrap();
     assert_good(&shape, &few, "stepped-l");
     assert!(few.report.corners < made(&shape, "stepped-l").report.corners);
+}
+
+#[test]
+fn the_seconds_of_a_shape_alone_have_the_making() {
+    let (_, shape) = example(Example::SteppedL, 1, CellKind::Triangles).unwrap();
+    let options = RemeshOptions { size: Some(Size::Hexes(300)), max_hausdorff: 1.0, ..RemeshOptions::default() };
+    let (made, meshes) = make::remesh(&shape, &MakeOptions::default(), &options, &Context::default()).unwrap();
+    let Stages { simplify, map, mesh, optimise, measure, total } = meshes.report.seconds;
+    assert!(total >= made.report.seconds.total + simplify + map + mesh + optimise + measure);
+    assert_eq!(meshes.report.simplify.seconds.total, total);
 }
 
 #[test]

@@ -10,7 +10,7 @@ use crate::remesh::{self, RemeshOptions, Remeshed};
 const MAKING: f64 = 0.1;
 
 /// Makes a polycube of a surface, simplifies it and meshes the surface with its blocks: [`make()`], then
-/// [`remesh`](remesh::remesh()) of what was made.
+/// [`remesh`](remesh::remesh()) of what was made. The total of its seconds has the making, too.
 ///
 /// ```
 /// use polycube::Context;
@@ -44,8 +44,7 @@ pub fn remesh(
     }
     let made = make(shape, making, &context.stage("make", 0.0, MAKING))?;
     let meshes = remesh::remesh(&made.input(), options, &context.stage("remesh", MAKING, 1.0));
-    match meshes {
-        Ok(meshes) => Ok((made, meshes)),
-        Err(error) => Err(Error { place: None, ..error }),
-    }
+    let mut meshes = meshes.map_err(|error| Error { place: None, ..error })?;
+    meshes.report.set_seconds(meshes.report.seconds.total + made.report.seconds.total);
+    Ok((made, meshes))
 }
