@@ -95,6 +95,10 @@ mod tests {
         // Of the part that both have in common, all edges lie in the faces named.
         let beside = |f: &Finding| f.at.is_some_and(|[x, ..]| (1.0..=2.5).contains(&x));
         assert!(found.iter().all(beside), "{found:?}");
+        // Edges of each pass just where the two triangles of a face of the other meet.
+        let aligned = rules(&two_cubes([1.5, 0.5, 0.5]));
+        assert!(!aligned.is_empty() && aligned.iter().all(|rule| *rule == "crossing_faces"), "{aligned:?}");
+        assert_eq!(rules(&two_cubes([2.0, 0.5, 0.5])), [""; 0], "side by side");
     }
 
     #[test]
