@@ -4,6 +4,7 @@ use crate::context::Context;
 use crate::error::{Error, ErrorKind, Result};
 use crate::layout::Objective;
 use crate::measure::GOOD;
+use crate::measure::hausdorff::diagonal;
 use crate::remesh::meshed::{Meshed, mesh_surface, mesh_volume};
 use crate::remesh::mesher::{Hexes, Layout, Quads};
 use crate::remesh::options::RemeshOptions;
@@ -93,6 +94,10 @@ fn simplifying(options: &RemeshOptions) -> simplify::SimplifyOptions {
     simplify::SimplifyOptions { objective, keep_flipped: true, ..options.simplify.clone() }
 }
 
+/// Where no mesh is near enough to the shape, the nearest is taken of those with at most this many times the blocks of
+/// the first.
+const HARDLY_MORE: f64 = 1.25;
+
 /// A mesh and what it is of.
 struct Made {
     simplified: Simplified,
@@ -119,10 +124,12 @@ impl Made {
         self.meshed.soundness.min(GOOD) + self.meshed.quality.mean
     }
 
-    /// Whether it is rather to be had than `other`: one with fewer inverted hexahedra, then one nearer to the shape,
-    /// then the one with fewer blocks, unless the other is clearly better.
-    fn is_better(&self, other: &Self) -> bool {
-        let rank = |made: &Self| (made.meshed.bad(), made.meshed.far);
+    /// Whether it is rather to be had than `other`: one with fewer inverted hexahedra; then one as near to the shape as
+    /// asked for, or else the nearest of those with hardly more than the `fewest` blocks; then the one with fewer
+    /// blocks, unless the other is clearly better.
+    fn is_better(&self, other: &Self, fewest: usize) -> bool {
+        let is_many = |made: &Self| made.meshed.far > 0.0 && made.blocks() as f64 > HARDLY_MORE * fewest as f64;
+        let rank = |made: &Self| (made.meshed.bad(), made.meshed.far > 0.0, is_many(made), made.meshed.far);
         let more = if self.blocks() > other.blocks() { WORTH } else { -WORTH };
         rank(self) < rank(other) || rank(self) == rank(other) && self.value() > other.value() + more
     }
@@ -137,6 +144,7 @@ fn best(
     context: &Context,
 ) -> Result<(Simplified, Meshed)> {
     let mut best: Option<Made> = None;
+    let mut fewest = None;
     let mut last = None;
     // Each takes half of the progress that is left: mostly there is one.
     let mut done = 0.0;
@@ -153,12 +161,14 @@ fn best(
         done += share;
         let made = Made { simplified, meshed };
         let (at, wrong) = (made.simplified.report.chosen.unwrap_or(0), made.wrong());
-        if best.as_ref().is_none_or(|best| made.is_better(best)) {
+        let far = made.meshed.far / (options.max_hausdorff * diagonal(&shape));
+        let fewest = *fewest.get_or_insert(made.blocks());
+        if best.as_ref().is_none_or(|best| made.is_better(best, fewest)) {
             best = Some(made);
         } else if wrong == Some(Wrong::Poor) && best.as_ref().is_some_and(|best| best.wrong() == wrong) {
             break;
         }
-        last = Some(Verdict { at, wrong, inverted: best.as_ref().is_some_and(|b| b.meshed.bad() > 0) });
+        last = Some(Verdict { at, wrong, far, inverted: best.as_ref().is_some_and(|b| b.meshed.bad() > 0) });
     }
     let found = best.map(|Made { simplified, meshed }| (simplified, meshed));
     found.ok_or_else(|| Error::new(ErrorKind::Internal, "there was nothing to mesh"))

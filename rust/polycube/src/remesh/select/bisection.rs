@@ -33,6 +33,11 @@ impl Bisection {
         (self.high, self.found) = (self.high.min(at), true);
     }
 
+    /// Whether the mesh of any point was right.
+    pub(crate) fn found(&self) -> bool {
+        self.found
+    }
+
     /// The point in the middle, if there is one and it may be worth a mesh.
     pub(crate) fn middle(&self, front: &[TradeOff]) -> Option<usize> {
         let middle = (self.low + self.high) / 2;

@@ -22,6 +22,11 @@ const TRIES: usize = 6;
 /// Points of the front that are meshed finely as long as the best of them is not inverted.
 const MESHED: usize = 5;
 
+/// Where meshes are farther from the shape than this many times what was asked for,
+const HOPELESS: f64 = 2.0;
+/// more blocks must bring them nearer by this factor, or still more are no help.
+const NEARER: f64 = 0.8;
+
 /// What is wrong with a mesh.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Wrong {
@@ -39,6 +44,8 @@ pub(crate) struct Verdict {
     pub(crate) at: usize,
     /// What is wrong with it.
     pub(crate) wrong: Option<Wrong>,
+    /// How far it is from the shape, in multiples of what was asked for; 0 if it is near enough.
+    pub(crate) far: f64,
     /// Whether even the best mesh so far has inverted hexahedra.
     pub(crate) inverted: bool,
 }
@@ -57,6 +64,8 @@ pub(crate) struct Candidates<'a> {
     taken: usize,
     /// Where the one with the fewest blocks whose fine mesh is right may lie.
     bisection: Bisection,
+    /// How far the last mesh was from the shape, in multiples of what was asked for.
+    far: Option<f64>,
 }
 
 impl<'a> Candidates<'a> {
@@ -79,7 +88,8 @@ impl<'a> Candidates<'a> {
         let bisection = Bisection::new(chosen, if left.is_empty() { chosen } else { found.report.front.len() });
         let candidate =
             Candidate::new(input, found.clone(), options, !left.is_empty(), &context.stage("map", 0.0, share))?;
-        let mut candidates = Self { input, options, first: found, tried: vec![candidate], left, taken: 0, bisection };
+        let mut candidates =
+            Self { input, options, first: found, tried: vec![candidate], left, taken: 0, bisection, far: None };
         while candidates.is_worth_trying() {
             let k = candidates.tried.len() as f64;
             let index = candidates.left.remove(0);
@@ -146,12 +156,13 @@ impl<'a> Candidates<'a> {
     /// Those of [`Candidate::new`] and [`Simplified::at`].
     pub(crate) fn next(&mut self, last: Option<Verdict>, context: &Context) -> Result<Option<Candidate>> {
         self.taken += 1;
-        let Some(Verdict { at, wrong, inverted }) = last else { return self.opening(context) };
+        let Some(Verdict { at, wrong, far, inverted }) = last else { return self.opening(context) };
         match wrong {
             None => self.bisection.right(at),
             Some(_) => self.bisection.wrong(at),
         }
-        if self.taken > MESHED && !inverted {
+        let is_enough = self.taken > MESHED || self.is_hopeless(far);
+        if is_enough && !inverted {
             return Ok(None);
         }
         if wrong == Some(Wrong::Poor)
@@ -160,6 +171,12 @@ impl<'a> Candidates<'a> {
             return Ok(Some(candidate));
         }
         self.middle(context)
+    }
+
+    /// Whether a mesh is far too `far` from the shape and hardly nearer than the last, which had fewer blocks.
+    fn is_hopeless(&mut self, far: f64) -> bool {
+        let before = self.far.replace(far);
+        far > HOPELESS && !self.bisection.found() && before.is_some_and(|before| far > NEARER * before)
     }
 
     /// Says so if a `result` is not what was found at first.

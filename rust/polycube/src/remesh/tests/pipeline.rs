@@ -127,6 +127,23 @@ fn the_fewest_blocks_are_meshed_where_that_is_asked_for_and_good_ones_where_not(
 
 /// Of each example the fewest patches there are fold the map (the cube with spikes apart).
 #[test]
+fn blocks_stay_few_where_none_bring_the_mesh_near_enough() {
+    let pair = example(Example::SteppedL, 1, CellKind::Triangles).unwrap();
+    let within = |max_hausdorff: f64| {
+        let options = RemeshOptions { max_hausdorff, ..options(Strategy::Best, 500) };
+        run(&pair, &options).report
+    };
+    let (any, near) = (within(1.0), within(1e-4));
+    assert!(
+        any.within_hausdorff && !near.within_hausdorff,
+        "{} and {} %",
+        any.hausdorff_percent,
+        near.hausdorff_percent
+    );
+    assert!(near.hex_blocks * 4 <= any.hex_blocks * 5, "{} and {} blocks", any.hex_blocks, near.hex_blocks);
+}
+
+#[test]
 fn surfaces_are_not_folded_where_more_patches_help() {
     for name in Example::ALL {
         let pair = example(name, 1, CellKind::Triangles).unwrap();
