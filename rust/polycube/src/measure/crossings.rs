@@ -8,9 +8,9 @@ use rayon::prelude::*;
 use robust::{Coord3D, orient3d};
 
 /// Pairs of triangles where an edge of the first passes from one side of the second to the other, through its inside or
-/// through a side of it; decided exactly, in a fixed order. Triangles that only touch, or overlap in one plane, are no
-/// pair, and neither are those that cross in no more than a common vertex or along a common edge. O(n log n) for n
-/// triangles that are spread out.
+/// through a side of it, each pair once or twice; decided exactly, in a fixed order. Triangles that only touch, or that
+/// overlap in one plane, are no pair, and neither are those that cross in no more than a common vertex or along an
+/// edge of both. O(n log n) for n triangles that are spread out.
 ///
 /// # Errors
 /// Only that the context was cancelled.
@@ -21,7 +21,7 @@ pub(crate) fn crossings(points: &[Point], triangles: &[[u32; 3]], context: &Cont
     let sides = sides(triangles);
     let pierced = |same: &[Side]| {
         context.check()?;
-        let ([u, v], i) = same[0];
+        let ([u, v], _) = same[0];
         let segment = [u, v].map(at);
         let mut found = Vec::new();
         let (low, high) = bounds(&segment);
@@ -37,7 +37,7 @@ pub(crate) fn crossings(points: &[Point], triangles: &[[u32; 3]], context: &Cont
                 Meeting::No => false,
             };
             if !other.contains(&u) && !other.contains(&v) && crossed() {
-                found.push([i, j]);
+                found.extend(same.iter().map(|(_, i)| [*i, j]));
             }
         });
         Ok(found)
