@@ -125,7 +125,6 @@ fn the_fewest_blocks_are_meshed_where_that_is_asked_for_and_good_ones_where_not(
     }
 }
 
-/// Of each example the fewest patches there are fold the map (the cube with spikes apart).
 #[test]
 fn blocks_stay_few_where_none_bring_the_mesh_near_enough() {
     let pair = example(Example::SteppedL, 1, CellKind::Triangles).unwrap();
@@ -143,6 +142,7 @@ fn blocks_stay_few_where_none_bring_the_mesh_near_enough() {
     assert!(near.hex_blocks * 4 <= any.hex_blocks * 5, "{} and {} blocks", any.hex_blocks, near.hex_blocks);
 }
 
+/// Of each example the fewest patches there are fold the map (the cube with spikes apart).
 #[test]
 fn surfaces_are_not_folded_where_more_patches_help() {
     for name in Example::ALL {
