@@ -27,7 +27,7 @@ pub(crate) use corner_tetrahedra::CornerTetrahedra;
 pub(crate) use diagnosis::remedy;
 use diagnosis::{diagnose, first_of_many};
 pub use front::Located;
-pub use note::{Cause, Note};
+pub use note::{Alternative, Cause, Note};
 pub use report::{Seconds, SimplifyReport};
 pub(crate) use untangling::untangle_morphed;
 

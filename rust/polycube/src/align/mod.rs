@@ -215,6 +215,11 @@ impl TradeOff {
         ((1.0 - simplicity.clamp(0.0, 1.0)) * (count as f64 - 1.0)).round() as usize
     }
 
+    /// The simplicity that asks for the point `index` of `count`.
+    pub(crate) fn simplicity(index: usize, count: usize) -> f64 {
+        1.0 - index as f64 / count.saturating_sub(1).max(1) as f64
+    }
+
     /// Whether it is the input, whose order is `own`, and where the input lies.
     fn is_input(&self, own: &Ranks) -> bool {
         self.displacement == 0.0 && self.order == own.of_level

@@ -3,7 +3,7 @@
 use crate::context::Context;
 use crate::error::Result;
 use crate::measure::Quality;
-use crate::measure::hausdorff::{diagonal, hausdorff};
+use crate::measure::hausdorff::hausdorff;
 use crate::mesh::Mesh;
 use crate::remesh::fit::{Aim, Improved};
 use crate::remesh::map::LatticeMap;
@@ -76,7 +76,7 @@ pub(crate) fn mesh_volume(
     let mut hexes = remesher.hexes(options.padding, &context.stage("mesh", 0.1, 0.2))?;
     let optimising = Instant::now();
     stages.mesh += (optimising - start).as_secs_f64();
-    let bound = options.max_hausdorff * diagonal(shape);
+    let bound = options.distance_bound(shape);
     let Improved { released, far } =
         finish(coarse, &remesher, &mut hexes, Aim::Within(bound), &context.stage("optimise", 0.2, 0.97))?;
     stages.optimise += optimising.elapsed().as_secs_f64();

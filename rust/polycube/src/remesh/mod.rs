@@ -23,4 +23,5 @@ pub use mesher::{Hexes, Layout, Quads, SingularEdge, grouped};
 pub use options::RemeshOptions;
 pub use pipeline::{Remeshed, remesh};
 pub use report::{InvertedCell, RemeshReport};
+pub use select::{Failure, TriedPoint};
 pub use stages::Stages;

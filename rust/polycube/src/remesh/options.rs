@@ -2,6 +2,8 @@
 
 use crate::align::Strategy;
 use crate::error::Result;
+use crate::measure::hausdorff::diagonal;
+use crate::mesh::{CellKind, Mesh};
 use crate::range::Range;
 use crate::remesh::lattice::Size;
 use crate::remesh::mesher::check_padding;
@@ -49,6 +51,16 @@ impl RemeshOptions {
         self.size.map_or(Ok(()), Size::check)?;
         check_padding(self.padding)?;
         self.simplify.check()
+    }
+
+    /// What is made: quadrilaterals for a surface alone, else hexahedra.
+    pub(crate) fn cells(&self) -> CellKind {
+        if self.surface_only { CellKind::Quads } else { CellKind::Hexahedra }
+    }
+
+    /// The largest distance to `shape` to accept, in its units.
+    pub(crate) fn distance_bound(&self, shape: &Mesh) -> f64 {
+        self.max_hausdorff * diagonal(shape)
     }
 
     /// Whether levels may lie where the shape wants them: not if the scale was given, the polycube is meshed as it is,

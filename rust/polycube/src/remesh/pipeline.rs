@@ -5,11 +5,12 @@ use crate::error::{Error, ErrorKind, Result};
 use crate::layout::Objective;
 use crate::measure::GOOD;
 use crate::measure::hausdorff::diagonal;
+use crate::mesh::Mesh;
 use crate::remesh::meshed::{Meshed, mesh_surface, mesh_volume};
 use crate::remesh::mesher::{Hexes, Layout, Quads};
 use crate::remesh::options::RemeshOptions;
 use crate::remesh::report::{RemeshReport, measure};
-use crate::remesh::select::{Candidate, Candidates, Verdict, WORTH, Wrong};
+use crate::remesh::select::{Candidate, Candidates, Failure, TriedPoint, Verdict, WORTH, alternatives};
 use crate::remesh::stages::Stages;
 use crate::repair::Repaired;
 use crate::simplify::{self, Input, Simplified, simplify, untangle_morphed};
@@ -75,11 +76,14 @@ pub fn remesh(input: &Input, options: &RemeshOptions, context: &Context) -> Resu
     stages.map = seconds() - stages.simplify;
     let (mut simplified, meshed) = best(&mut candidates, options, &mut stages, &context.stage("mesh", 0.5, 0.9))?;
     candidates.explain(&mut simplified);
+    let tried = candidates.tried(&simplified);
+    simplified.report.notes.extend(alternatives(&tried, options.cells()));
     simplified.report.seconds = spent;
     let shape = input.shape.unwrap_or(input.polycube);
     untangle_volume(&mut simplified, input, &context.stage("map", 0.9, 0.95))?;
     simplified.report.note_repairs(repaired.as_ref());
-    let report = measure(&simplified, &meshed, shape, options, stages, &context.stage("measure", 0.95, 1.0))?;
+    let measured = measure(&simplified, &meshed, shape, options, stages, &context.stage("measure", 0.95, 1.0))?;
+    let report = RemeshReport { tried, ..measured };
     let Meshed { layout, quads, hexes, .. } = meshed;
     let mut result = Remeshed { simplified, layout, quads, hexes, report };
     result.report.set_seconds(seconds());
@@ -106,13 +110,26 @@ struct Made {
 
 impl Made {
     /// What is wrong with it. A worst hexahedron that lacks little to be good is not worth another mesh.
-    fn wrong(&self) -> Option<Wrong> {
+    fn failed(&self) -> Option<Failure> {
         match &self.meshed {
-            meshed if meshed.bad() > 0 => Some(Wrong::Inverted),
-            Meshed { far, .. } if *far > 0.0 => Some(Wrong::Far),
-            Meshed { soundness, .. } if *soundness < GOOD - WORTH => Some(Wrong::Poor),
+            Meshed { folded, .. } if *folded > 0 => Some(Failure::Folded),
+            meshed if meshed.bad() > 0 => Some(Failure::Inverted),
+            Meshed { far, .. } if *far > 0.0 => Some(Failure::Far),
+            Meshed { soundness, .. } if *soundness < GOOD - WORTH => Some(Failure::Poor),
             _ => None,
         }
+    }
+
+    /// What the report says of it, if it is a point of a front.
+    fn tried(&self, shape: &Mesh) -> Option<TriedPoint> {
+        let Meshed { hexes, quality, far, .. } = &self.meshed;
+        Some(TriedPoint {
+            failed: self.failed(),
+            min_sj: hexes.as_ref().map(|_| quality.worst),
+            avg_sj: hexes.as_ref().map(|_| quality.mean),
+            hausdorff_percent: (*far > 0.0).then(|| 100.0 * far / diagonal(shape)),
+            ..TriedPoint::new(&self.simplified, hexes.is_none())?
+        })
     }
 
     fn blocks(&self) -> usize {
@@ -160,15 +177,16 @@ fn best(
         meshed.spaced = spaced;
         done += share;
         let made = Made { simplified, meshed };
-        let (at, wrong) = (made.simplified.report.chosen.unwrap_or(0), made.wrong());
-        let far = made.meshed.far / (options.max_hausdorff * diagonal(&shape));
+        let (at, failed) = (made.simplified.report.chosen.unwrap_or(0), made.failed());
+        let far = made.meshed.far / options.distance_bound(&shape);
+        candidates.note(made.tried(&shape));
         let fewest = *fewest.get_or_insert(made.blocks());
         if best.as_ref().is_none_or(|best| made.is_better(best, fewest)) {
             best = Some(made);
-        } else if wrong == Some(Wrong::Poor) && best.as_ref().is_some_and(|best| best.wrong() == wrong) {
+        } else if failed == Some(Failure::Poor) && best.as_ref().is_some_and(|best| best.failed() == failed) {
             break;
         }
-        last = Some(Verdict { at, wrong, far, inverted: best.as_ref().is_some_and(|b| b.meshed.bad() > 0) });
+        last = Some(Verdict { at, failed, far, inverted: best.as_ref().is_some_and(|b| b.meshed.bad() > 0) });
     }
     let found = best.map(|Made { simplified, meshed }| (simplified, meshed));
     found.ok_or_else(|| Error::new(ErrorKind::Internal, "there was nothing to mesh"))

@@ -8,6 +8,7 @@ use crate::mesh::{CellKind, Mesh};
 use crate::remesh::meshed::Meshed;
 use crate::remesh::mesher::Hexes;
 use crate::remesh::options::RemeshOptions;
+use crate::remesh::select::TriedPoint;
 use crate::remesh::stages::Stages;
 use crate::simplify::{self, Note, Simplified};
 
@@ -26,6 +27,8 @@ pub struct RemeshReport {
     /// Whether the levels were spaced by the shape: as many lattice steps between two as its edges there are long. A
     /// lattice step is then no fixed length on the polycube.
     pub spaced: bool,
+    /// The points of the front that were meshed, from the fewest blocks on; nothing without a front.
+    pub tried: Vec<TriedPoint>,
     /// Number of quadrilaterals.
     pub quads: usize,
     /// Quadrilaterals whose scaled Jacobian is not positive.
@@ -104,6 +107,7 @@ pub(crate) fn measure(
     let mut report = RemeshReport {
         simplify: simplified.report.clone(),
         spaced: meshed.spaced,
+        tried: Vec::new(),
         quads: meshed.quads.mesh.cells().len(),
         inverted_quads: meshed.quads.quality().inverted,
         folded: meshed.folded,
@@ -121,7 +125,7 @@ pub(crate) fn measure(
         hausdorff: distance,
         hausdorff_percent: 100.0 * distance / diagonal,
         max_hausdorff: options.max_hausdorff,
-        within_hausdorff: distance <= options.max_hausdorff * diagonal,
+        within_hausdorff: distance <= options.distance_bound(shape),
         seconds,
     };
     if meshed.released > 0 {

@@ -60,6 +60,8 @@ pub enum Note {
         /// What is meshed: quadrilaterals for a surface alone, else hexahedra.
         cells: CellKind,
     },
+    /// The points of the front that were tried just before and after the one that was meshed.
+    Alternatives(Vec<Alternative>),
     /// So many vertices left polycube corners and edges.
     Released(usize),
     /// So many hexahedra are inverted.
@@ -73,6 +75,19 @@ pub enum Note {
         /// About how many cells of a kind would be near enough, where more of them help.
         enough: Option<(f64, CellKind)>,
     },
+}
+
+/// What another simplicity would give.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Alternative {
+    /// Blocks with padding, or patches of a surface alone.
+    pub count: usize,
+    /// The simplicity that asks for it.
+    pub simplicity: f64,
+    /// What is meshed: quadrilaterals for a surface alone, else hexahedra.
+    pub cells: CellKind,
+    /// What is wrong with its mesh, in words; nothing if nothing is.
+    pub fault: Option<String>,
 }
 
 /// Why a limit is not kept.
@@ -127,9 +142,12 @@ impl fmt::Display for Note {
                 "rounding to the lattice broke the polycube, so the levels were placed in the order they have",
             ),
             Self::MoreBlocks { count, least, cells } => {
-                let counted = if *cells == CellKind::Quads { "patches" } else { "blocks" };
-                write!(f, "{count} {counted} instead of {least}: fewer made bad {cells} or a mesh ")?;
+                write!(f, "{count} {} instead of {least}: fewer made bad {cells} or a mesh ", counted(*cells))?;
                 f.write_str("too far from the shape; a limit on the displacement or a simplicity chooses otherwise")
+            }
+            Self::Alternatives(others) => {
+                let told: Vec<String> = others.iter().map(ToString::to_string).collect();
+                write!(f, "tried besides: {}", told.join("; "))
             }
             Self::Released(n) => {
                 write!(f, "{n} vertices left polycube corners and edges for the surface around, ")?;
@@ -146,6 +164,17 @@ impl fmt::Display for Note {
                 write!(f, ": {count} {cells} are likely to be near enough")
             }
         }
+    }
+}
+
+fn counted(cells: CellKind) -> &'static str {
+    if cells == CellKind::Quads { "patches" } else { "blocks" }
+}
+
+impl fmt::Display for Alternative {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "{} {} with a simplicity of {:.4}", self.count, counted(self.cells), self.simplicity)?;
+        self.fault.as_ref().map_or(Ok(()), |fault| write!(f, " ({fault})"))
     }
 }
 

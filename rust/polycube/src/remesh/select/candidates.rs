@@ -3,11 +3,11 @@
 
 use super::bisection::Bisection;
 use super::candidate::Candidate;
+use super::tried::{Failure, Tried, TriedPoint};
 use crate::context::Context;
 use crate::error::Result;
 use crate::layout::Counts;
 use crate::measure::GOOD;
-use crate::mesh::CellKind;
 use crate::remesh::options::RemeshOptions;
 use crate::simplify::{Input, Note, Simplified};
 
@@ -27,23 +27,12 @@ const HOPELESS: f64 = 2.0;
 /// more blocks must bring them nearer by this factor, or still more are no help.
 const NEARER: f64 = 0.8;
 
-/// What is wrong with a mesh.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(crate) enum Wrong {
-    /// It has inverted hexahedra.
-    Inverted,
-    /// It is farther from the shape than asked for.
-    Far,
-    /// Its worst hexahedron is poor.
-    Poor,
-}
-
 /// How a mesh turned out.
 pub(crate) struct Verdict {
     /// The point of the front.
     pub(crate) at: usize,
     /// What is wrong with it.
-    pub(crate) wrong: Option<Wrong>,
+    pub(crate) failed: Option<Failure>,
     /// How far it is from the shape, in multiples of what was asked for; 0 if it is near enough.
     pub(crate) far: f64,
     /// Whether even the best mesh so far has inverted hexahedra.
@@ -57,7 +46,7 @@ pub(crate) struct Candidates<'a> {
     /// What was found at first; the others are points of its front.
     first: Simplified,
     /// Those with a coarse mesh, from the fewest blocks on.
-    tried: Vec<Candidate>,
+    coarse: Vec<Candidate>,
     /// Points of the front that were not tried, from the fewest blocks on.
     left: Vec<usize>,
     /// How many were handed out.
@@ -66,6 +55,8 @@ pub(crate) struct Candidates<'a> {
     bisection: Bisection,
     /// How far the last mesh was from the shape, in multiples of what was asked for.
     far: Option<f64>,
+    /// What is known of all of them.
+    tried: Tried,
 }
 
 impl<'a> Candidates<'a> {
@@ -88,43 +79,47 @@ impl<'a> Candidates<'a> {
         let bisection = Bisection::new(chosen, if left.is_empty() { chosen } else { found.report.front.len() });
         let candidate =
             Candidate::new(input, found.clone(), options, !left.is_empty(), &context.stage("map", 0.0, share))?;
+        let mut tried = Tried::default();
+        tried.coarse(&candidate, options.surface_only);
         let mut candidates =
-            Self { input, options, first: found, tried: vec![candidate], left, taken: 0, bisection, far: None };
+            Self { input, options, first: found, coarse: vec![candidate], left, taken: 0, bisection, far: None, tried };
         while candidates.is_worth_trying() {
-            let k = candidates.tried.len() as f64;
+            let k = candidates.coarse.len() as f64;
             let index = candidates.left.remove(0);
             let next = candidates.candidate(
                 index,
                 !candidates.left.is_empty(),
                 &context.stage("map", k * share, (k + 1.0) * share),
             )?;
-            candidates.tried.push(next);
+            candidates.coarse.push(next);
         }
         Ok(candidates)
     }
 
     /// Whether there is a coarse mesh and it is poor, and it or one shortly before was better than all others.
     fn is_worth_trying(&self) -> bool {
-        let Some(worst) = self.tried.last().and_then(Candidate::worst) else { return false };
-        let (before, lately) = self.tried.split_at(self.tried.len().saturating_sub(MISSES));
+        let Some(worst) = self.coarse.last().and_then(Candidate::worst) else { return false };
+        let (before, lately) = self.coarse.split_at(self.coarse.len().saturating_sub(MISSES));
         let best = |candidates: &[Candidate]| candidates.iter().map(value).fold(f64::NEG_INFINITY, f64::max);
         !self.left.is_empty() && worst < GOOD && (worst <= 0.0 || best(lately) > best(before) + WORTH)
     }
 
     /// What a mesh of the given point of the front is made from, if it is one of `several` with no coarse mesh where
     /// that is in vain.
-    fn candidate(&self, index: usize, several: bool, context: &Context) -> Result<Candidate> {
+    fn candidate(&mut self, index: usize, several: bool, context: &Context) -> Result<Candidate> {
         let found = self.first.at_index(self.input, index, context)?;
-        Candidate::new(self.input, found, self.options, several, context)
+        let candidate = Candidate::new(self.input, found, self.options, several, context)?;
+        self.tried.coarse(&candidate, self.options.surface_only);
+        Ok(candidate)
     }
 
     /// The first candidate: the one with the fewest blocks whose coarse mesh is good or nearly as good as the best.
     fn most_promising(&mut self) -> Option<Candidate> {
-        let best = self.tried.iter().map(value).fold(f64::NEG_INFINITY, f64::max);
+        let best = self.coarse.iter().map(value).fold(f64::NEG_INFINITY, f64::max);
         let good = |s: &Candidate| s.worst().is_some_and(|worst| worst >= GOOD) || value(s) >= best - WORTH;
         // Those with fewer blocks move corners farther: what is wrong with this one is wrong with them.
-        let k = self.tried.iter().position(good)?;
-        let mut passed = self.tried.drain(..=k);
+        let k = self.coarse.iter().position(good)?;
+        let mut passed = self.coarse.drain(..=k);
         let candidate = passed.next_back();
         let before = passed.filter_map(|s| s.simplified.report.chosen).next_back();
         before.into_iter().for_each(|at| self.bisection.wrong(at));
@@ -134,7 +129,7 @@ impl<'a> Candidates<'a> {
     /// The first candidate. Where the coarse meshes of all others were bad and that of the input would be too coarse to
     /// tell, it is not the input but one in the middle between them.
     fn opening(&mut self, context: &Context) -> Result<Option<Candidate>> {
-        let others = self.tried.len() > 1;
+        let others = self.coarse.len() > 1;
         let end = self.first.report.front.len().checked_sub(1);
         let is_input = |s: &Candidate| s.simplified.report.chosen == end;
         match self.most_promising() {
@@ -144,7 +139,7 @@ impl<'a> Candidates<'a> {
     }
 
     /// The one in the middle of those that come into question.
-    fn middle(&self, context: &Context) -> Result<Option<Candidate>> {
+    fn middle(&mut self, context: &Context) -> Result<Option<Candidate>> {
         let middle = self.bisection.middle(&self.first.report.front);
         middle.map(|k| self.candidate(k, false, context)).transpose()
     }
@@ -156,16 +151,17 @@ impl<'a> Candidates<'a> {
     /// Those of [`Candidate::new`] and [`Simplified::at`].
     pub(crate) fn next(&mut self, last: Option<Verdict>, context: &Context) -> Result<Option<Candidate>> {
         self.taken += 1;
-        let Some(Verdict { at, wrong, far, inverted }) = last else { return self.opening(context) };
-        match wrong {
+        let Some(Verdict { at, failed, far, inverted }) = last else { return self.opening(context) };
+        match failed {
             None => self.bisection.right(at),
             Some(_) => self.bisection.wrong(at),
         }
-        let is_enough = self.taken > MESHED || self.is_hopeless(far);
+        let before = self.far.replace(far);
+        let is_enough = self.taken > MESHED || !self.bisection.found() && is_hopeless(far, before);
         if is_enough && !inverted {
             return Ok(None);
         }
-        if wrong == Some(Wrong::Poor)
+        if failed == Some(Failure::Poor)
             && let Some(candidate) = self.most_promising()
         {
             return Ok(Some(candidate));
@@ -173,10 +169,14 @@ impl<'a> Candidates<'a> {
         self.middle(context)
     }
 
-    /// Whether a mesh is far too `far` from the shape and hardly nearer than the last, which had fewer blocks.
-    fn is_hopeless(&mut self, far: f64) -> bool {
-        let before = self.far.replace(far);
-        far > HOPELESS && !self.bisection.found() && before.is_some_and(|before| far > NEARER * before)
+    /// Notes what a mesh as fine as asked for was like.
+    pub(crate) fn note(&mut self, point: Option<TriedPoint>) {
+        point.into_iter().for_each(|point| self.tried.fine(point));
+    }
+
+    /// All points of the front that were tried, from the fewest blocks on, that which was `taken` marked.
+    pub(crate) fn tried(self, taken: &Simplified) -> Vec<TriedPoint> {
+        self.tried.with_taken(taken.report.chosen)
     }
 
     /// Says so if a `result` is not what was found at first.
@@ -186,10 +186,16 @@ impl<'a> Candidates<'a> {
         if let (Some(ours), Some(least)) = (after, first.after) {
             let surface = self.options.surface_only;
             let counted = |c: &Counts| if surface { c.surface_patches } else { c.blocks_padded };
-            let cells = if surface { CellKind::Quads } else { CellKind::Hexahedra };
+            let cells = self.options.cells();
             report.notes.push(Note::MoreBlocks { count: counted(&ours), least: counted(&least), cells });
         }
     }
+}
+
+/// Whether a mesh is far too `far` from the shape and hardly nearer than the one `before`, which had fewer blocks and
+/// was too far itself; both in multiples of what was asked for.
+fn is_hopeless(far: f64, before: Option<f64>) -> bool {
+    far > HOPELESS && before.is_some_and(|before| before > 0.0 && far > NEARER * before)
 }
 
 /// What the coarse mesh of a candidate promises: worst and average scaled Jacobian in sum, the worst as far as it is

@@ -6,8 +6,11 @@ mod candidates;
 mod coarse_mesh;
 mod multilevel;
 mod spacing;
+mod tried;
 
 pub(crate) use candidate::Candidate;
-pub(crate) use candidates::{Candidates, Verdict, WORTH, Wrong};
+pub(crate) use candidates::{Candidates, Verdict, WORTH};
 pub(crate) use coarse_mesh::CoarseMesh;
 pub(crate) use multilevel::finish;
+pub(crate) use tried::alternatives;
+pub use tried::{Failure, TriedPoint};

@@ -9,7 +9,7 @@ use crate::measure::{base_complex, hausdorff};
 use crate::mesh::{CellKind, Mesh};
 use crate::remesh::lattice::MOST_HEXES;
 use crate::remesh::mesher::MAX_PADDING;
-use crate::remesh::{RemeshOptions, Remeshed, Size, remesh};
+use crate::remesh::{Failure, RemeshOptions, Remeshed, Size, TriedPoint, remesh};
 use crate::simplify::{Input, Note, SimplifyOptions};
 
 fn options(strategy: Strategy, hexes: usize) -> RemeshOptions {
@@ -140,6 +140,30 @@ fn blocks_stay_few_where_none_bring_the_mesh_near_enough() {
         near.hausdorff_percent
     );
     assert!(near.hex_blocks * 4 <= any.hex_blocks * 5, "{} and {} blocks", any.hex_blocks, near.hex_blocks);
+}
+
+/// A bound that no mesh meets has several points meshed.
+#[test]
+fn what_was_tried_is_told_and_can_be_asked_for() {
+    let pair = example(Example::SteppedL, 1, CellKind::Triangles).unwrap();
+    let asked = RemeshOptions { max_hausdorff: 1e-4, ..options(Strategy::Best, 500) };
+    let Remeshed { simplified, report, .. } = run(&pair, &asked);
+    let tried = &report.tried;
+    assert!(tried.len() > 1 && tried.is_sorted_by(|a, b| a.point < b.point), "{tried:?}");
+    for point in tried {
+        let located = simplified.locate(point.simplicity, &Context::default()).unwrap();
+        assert_eq!((located.index, located.counts.blocks_padded), (point.point, point.blocks));
+        assert!(!point.fine || point.failed == Some(Failure::Far), "{point:?}");
+    }
+    let taken: Vec<&TriedPoint> = tried.iter().filter(|point| point.taken).collect();
+    assert_eq!(taken.len(), 1);
+    assert_eq!((taken[0].min_sj, taken[0].blocks), (report.min_sj, report.hex_blocks));
+    let beside = report.simplify.notes.iter().find_map(|note| match note {
+        Note::Alternatives(others) => Some(others),
+        _ => None,
+    });
+    let beside = beside.expect("others were tried");
+    assert!(beside.iter().all(|other| tried.iter().any(|p| !p.taken && p.blocks == other.count)));
 }
 
 /// Of each example the fewest patches there are fold the map (the cube with spikes apart).
