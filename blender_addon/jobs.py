@@ -142,11 +142,11 @@ class JobOperator(NeedsMesh):
 
     def next_job(self, context, read):
         """Starts to make the polycube of a plain shape, or what comes after that."""
-        kept = live.made_of(read, self.detail) if read.plain else None
+        kept = live.made_of(read, self.making()) if read.plain else None
         if kept is not None:
             read.take(kept)
         self._making = read.polycube is None
-        return polycube.Job.make(read.shape, detail=self.detail) if self._making else self.begin(context, read)
+        return polycube.Job.make(read.shape, **self.making()) if self._making else self.begin(context, read)
 
     def _next(self, context):
         low = 0.0 if _Running.job is None else MAKING
@@ -158,7 +158,7 @@ class JobOperator(NeedsMesh):
         if not self._making:
             return self._end(context)
         try:
-            live.keep_made(self._source, self.detail, self._job.result())
+            live.keep_made(self._source, self.making(), self._job.result())
             self._next(context)
         except (faults.Refused, polycube.PolycubeError) as error:
             self._clean_up(context)

@@ -26,14 +26,14 @@ class _Made:
     made = None
 
 
-def keep_made(source, detail, made):
+def keep_made(source, making, made):
     """Keeps what was made of a plain shape."""
-    _Made.key, _Made.made = (source.fingerprint, detail), made
+    _Made.key, _Made.made = (source.fingerprint, making), made
 
 
-def made_of(source, detail):
+def made_of(source, making):
     """What was made of this very shape, or None."""
-    return _Made.made if _Made.key == (source.fingerprint, detail) else None
+    return _Made.made if _Made.key == (source.fingerprint, making) else None
 
 
 def remember(source, found):

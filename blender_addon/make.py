@@ -24,10 +24,10 @@ class POLYCUBE_OT_make(jobs.JobOperator, settings.MakeOptions, bpy.types.Operato
         """Nothing is refused beforehand."""
 
     def next_job(self, _context, read):
-        return polycube.Job.make(read.shape, detail=self.detail)
+        return polycube.Job.make(read.shape, **self.making())
 
     def finish(self, context, read, made):
-        live.keep_made(read, self.detail, made)
+        live.keep_made(read, self.making(), made)
         read.take(made)
         shape = bpy.data.objects[read.holder]
         obj = _object(context, shape, read)
@@ -40,6 +40,7 @@ class POLYCUBE_OT_make(jobs.JobOperator, settings.MakeOptions, bpy.types.Operato
 
     def draw(self, _context):
         self.layout.prop(self, "detail", slider=True)
+        self.layout.prop(self, "axes")
 
 
 def _object(context, shape, read):

@@ -35,7 +35,7 @@ class POLYCUBE_OT_preset_add(AddPresetBase, bpy.types.Operator):
     preset_values = [
         f"polycube.{name}"
         for name in ("strategy", "objective", "simplicity", "steps", "max_distortion", "angle_tolerance",
-                     "level_tolerance", "blocks_from", "padding", "detail")
+                     "level_tolerance", "blocks_from", "padding", "detail", "axes")
     ]
 
 
@@ -61,6 +61,7 @@ class VIEW3D_PT_polycube(_SidePanel, bpy.types.Panel):
             return
         if choice.source == 'OBJECTS' and choice.polycube is None:
             layout.prop(choice, "detail", slider=True)
+            layout.prop(choice, "axes")
             layout.operator("polycube.make", icon='MESH_CUBE')
         row = layout.row(align=True)
         row.operator("polycube.check", icon='CHECKMARK')

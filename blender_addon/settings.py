@@ -173,6 +173,20 @@ class MakeOptions(Options):
         subtype='FACTOR',
         options=FORGET,
     )
+    axes: EnumProperty(
+        name="Axes",
+        description="Which directions of the shape become the axes of a polycube that is made",
+        items=(
+            ('KEEP', "Local", "Those of the object"),
+            ('BEST', "Best", "Those that the surface looks along best, for a shape that lies askew"),
+        ),
+        default='KEEP',
+        options=FORGET,
+    )
+
+    def making(self):
+        """What the module takes."""
+        return {"detail": self.detail, "axes": self.axes.lower()}
 
 
 class SimplifyOptions(SearchOptions, ToleranceOptions):

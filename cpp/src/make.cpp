@@ -9,7 +9,7 @@ namespace internal {
 
 bridge::MakeOptionsData options(const MakeOptions& options) {
     bridge::MakeOptionsData data = {options.detail, options.corners.has_value(), options.corners.value_or(0),
-                                    options.labels.has_value(), {}};
+                                    options.axes == Axes::best, options.labels.has_value(), {}};
     if (options.labels) std::copy(options.labels->begin(), options.labels->end(), std::back_inserter(data.labels));
     return data;
 }

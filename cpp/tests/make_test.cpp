@@ -56,6 +56,7 @@ TEST_CASE("the defaults of making are those of the core") {
     const polycube::MakeOptions own;
     CHECK(core.detail == own.detail);
     CHECK(core.has_corners == own.corners.has_value());
+    CHECK(core.best_axes == (own.axes == polycube::Axes::best));
     CHECK(core.has_labels == own.labels.has_value());
 }
 

@@ -10,14 +10,22 @@
 
 namespace polycube {
 
+/// Which directions of a shape become the axes of its polycube.
+enum class Axes : std::uint8_t {
+    keep,  ///< Those of the coordinates.
+    best,  ///< Those that the surface looks along best, for a shape that lies askew.
+};
+
 /// How a polycube is made.
 struct MakeOptions {
     /// How closely the polycube follows the shape, from 0, as few corners as can be, to 1.
     double detail = 0.5;
     /// Take corners away until no more than these are left, as far as the shape allows, whatever `detail` says.
     std::optional<std::uint64_t> corners;
+    /// Which directions of the shape become the axes of the polycube.
+    Axes axes = Axes::keep;
     /// One label for each face of the shape, 0 to 5 for +X -X +Y -Y +Z -Z, as programs that label shapes leave them.
-    /// Their charts become the facets as they are; `detail` and `corners` then have no effect.
+    /// Their charts become the facets as they are; `detail`, `corners` and `axes` then have no effect.
     std::optional<std::vector<std::int8_t>> labels;
 };
 

@@ -123,6 +123,7 @@ mod ffi {
         detail: f64,
         has_corners: bool,
         corners: u64,
+        best_axes: bool,
         has_labels: bool,
         labels: Vec<i8>,
     }

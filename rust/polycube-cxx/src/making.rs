@@ -5,7 +5,7 @@ use crate::ffi::*;
 use crate::input::mesh;
 use crate::results::json;
 use crate::run::run;
-use polycube::make::{self as core, Made, MakeOptions};
+use polycube::make::{self as core, Axes, Made, MakeOptions};
 
 /// See `polycube::make::make`.
 pub fn make(shape: &MeshView, data: &MakeOptionsData, observer: &Observer) -> Result<MadeData> {
@@ -18,7 +18,8 @@ pub fn make(shape: &MeshView, data: &MakeOptionsData, observer: &Observer) -> Re
 pub fn make_options(data: &MakeOptionsData) -> MakeOptions {
     // More corners than a usize holds are as many as there can be.
     let corners = data.has_corners.then(|| usize::try_from(data.corners).unwrap_or(usize::MAX));
-    MakeOptions { detail: data.detail, corners, labels: data.has_labels.then(|| data.labels.clone()) }
+    let axes = if data.best_axes { Axes::Best } else { Axes::Keep };
+    MakeOptions { detail: data.detail, corners, axes, labels: data.has_labels.then(|| data.labels.clone()) }
 }
 
 /// What was made, as C++ sees it.
@@ -46,11 +47,12 @@ pub fn made(Made { shape, polycube, labels, report }: &Made) -> polycube::Result
 
 /// The defaults of the core, for C++ to compare its own with.
 pub fn default_make_options() -> MakeOptionsData {
-    let MakeOptions { detail, corners, labels } = MakeOptions::default();
+    let MakeOptions { detail, corners, axes, labels } = MakeOptions::default();
     MakeOptionsData {
         detail,
         has_corners: corners.is_some(),
         corners: corners.unwrap_or_default() as u64,
+        best_axes: axes == Axes::Best,
         has_labels: labels.is_some(),
         labels: labels.unwrap_or_default(),
     }

@@ -44,7 +44,10 @@ macro_rules! any {
 impl PyJob {
     /// Starts `polycube.make` with these arguments, of which mistakes are raised at once.
     #[staticmethod]
-    #[pyo3(signature = (shape, **options), text_signature = "(shape, *, detail=None, corners=None, labels=None)")]
+    #[pyo3(
+        signature = (shape, **options),
+        text_signature = "(shape, *, detail=None, corners=None, axes=None, labels=None)"
+    )]
     fn make(py: Python<'_>, shape: &PyMesh, options: Option<&Bound<'_, PyDict>>) -> PyResult<Self> {
         Ok(Self(Kind::Make(work::start(py, made::task(py, shape, options)?)?)))
     }
@@ -71,7 +74,7 @@ impl PyJob {
     #[staticmethod]
     #[pyo3(
         signature = (shape, polycube=None, **options),
-        text_signature = "(shape, polycube=None, *, detail=None, corners=None, labels=None, hexes=None, \
+        text_signature = "(shape, polycube=None, *, detail=None, corners=None, axes=None, labels=None, hexes=None, \
             edge_length=None, scale=None, padding=1, surface_only=False, max_hausdorff=0.5, strategy='best', \
             objective=None, simplicity=None, max_displacement=None, max_distortion=None, locked_faces=None, \
             guides=None, steps=400, \

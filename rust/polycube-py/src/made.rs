@@ -90,8 +90,10 @@ impl PyMade {
 ///     shape: the surface.
 ///     detail: how closely the polycube follows the shape, from 0, as few corners as can be, to 1. 0.5 if not given.
 ///     corners: take corners away until no more than these are left, as far as the shape allows, whatever detail says.
+///     axes: which directions of the shape become the axes of the polycube: "keep" for those of the coordinates, as if
+///         not given; "best" for those that the surface looks along best, for a shape that lies askew.
 ///     labels: (f,) 0 to 5 for each face of the shape, as programs that label shapes leave them. Its charts become the
-///         facets as they are, and detail and corners have no effect.
+///         facets as they are, and detail, corners and axes have no effect.
 ///     progress, cancel: as in `simplify`.
 ///
 /// Raises:
@@ -112,7 +114,7 @@ impl PyMade {
 #[pyfunction]
 #[pyo3(
     signature = (shape, *, progress=None, cancel=None, **options),
-    text_signature = "(shape, *, detail=None, corners=None, labels=None, progress=None, cancel=None)"
+    text_signature = "(shape, *, detail=None, corners=None, axes=None, labels=None, progress=None, cancel=None)"
 )]
 pub fn make<'py>(
     py: Python<'py>,

@@ -4,7 +4,7 @@ use crate::arrays;
 use crate::errors;
 use polycube::align::{Effort, Guides, SolverKind, Strategy};
 use polycube::layout::Objective;
-use polycube::make::MakeOptions;
+use polycube::make::{Axes, MakeOptions};
 use polycube::remesh::{RemeshOptions, Size};
 use polycube::simplify::SimplifyOptions;
 use polycube::structure::Tolerance;
@@ -101,11 +101,12 @@ impl<'py> Keywords<'py> {
     pub fn make(&self) -> PyResult<MakeOptions> {
         if let Some(labels) = self.labels()? {
             let reason = "the labels say which facets there are";
-            self.refuse(&["detail", "corners"], reason, "leave it out, or the labels")?;
+            self.refuse(&["detail", "corners", "axes"], reason, "leave it out, or the labels")?;
             return Ok(MakeOptions { labels: Some(labels), ..MakeOptions::default() });
         }
         let detail = self.take("detail")?.unwrap_or(MakeOptions::default().detail);
-        let options = MakeOptions { detail, corners: self.take("corners")?, labels: None };
+        let axes = self.word("axes", &[("keep", Axes::Keep), ("best", Axes::Best)])?.unwrap_or_default();
+        let options = MakeOptions { detail, corners: self.take("corners")?, axes, labels: None };
         options.check().map_err(|e| errors::raise(self.py(), &e, None))?;
         Ok(options)
     }

@@ -114,7 +114,7 @@ enum Start {
 impl Start {
     fn new(shape: &PyMesh, polycube: Option<&PyMesh>, keywords: &Keywords<'_>) -> PyResult<Self> {
         if let Some(polycube) = polycube {
-            keywords.refuse(&["detail", "corners"], "a polycube is given", "leave it out, or the polycube")?;
+            keywords.refuse(&["detail", "corners", "axes"], "a polycube is given", "leave it out, or the polycube")?;
             return Ok(Self::Pair(Source::new(polycube, Some(shape), keywords)?));
         }
         Ok(Self::Shape(Arc::clone(&shape.0), keywords.make()?))
@@ -149,7 +149,7 @@ impl Start {
 ///     shape: without a polycube, a closed surface; with one, the mesh that the polycube was deformed from, with the
 ///         same cells: a surface or a volume.
 ///     polycube: the mesh whose boundary faces look along the axes. One is made, as `make` does, if none is given.
-///     detail, corners: only where a polycube is made, as in `make`.
+///     detail, corners, axes: only where a polycube is made, as in `make`.
 ///     labels: (f,) 0 to 5 for each boundary face of the polycube, -1 for "by the normal". By the normals if not given.
 ///         Without a polycube, those of the shape, whose charts become the facets, as in `make`.
 ///     hexes: about how many hexahedra there shall be, padding included. This, edge_length or scale.
@@ -179,7 +179,7 @@ impl Start {
 #[pyfunction]
 #[pyo3(
     signature = (shape, polycube=None, *, progress=None, cancel=None, **options),
-    text_signature = "(shape, polycube=None, *, detail=None, corners=None, labels=None, hexes=None, \
+    text_signature = "(shape, polycube=None, *, detail=None, corners=None, axes=None, labels=None, hexes=None, \
         edge_length=None, scale=None, padding=1, surface_only=False, max_hausdorff=0.5, strategy='best', \
         objective=None, simplicity=None, max_displacement=None, max_distortion=None, locked_faces=None, \
         guides=None, steps=400, \

@@ -50,6 +50,19 @@ def test_fewer_corners(shape, made):
     assert repr(few) == f"Made({few.report['corners']} corners, {few.report['facets']} facets)"
 
 
+def test_the_axes_of_the_surface_are_found():
+    _, shape = polycube.example("stepped-l", kind="triangles")
+    c, s = np.cos(0.5), np.sin(0.5)
+    turn = np.array([[c, -s, 0], [s, c, 0], [0, 0, 1]])
+    askew = polycube.Mesh(shape.points @ turn.T, shape.cells)
+    found = polycube.make(askew, axes="best")
+    assert np.array_equal(found.shape.points[: len(shape.points)], askew.points)
+    assert found.report["misfit"] < 1e-9 < polycube.make(askew).report["misfit"]
+    assert polycube.check(found.polycube, found.labels, shape=found.shape) == []
+    with pytest.raises(polycube.InvalidOption, match="keep"):
+        polycube.make(askew, axes="worst")
+
+
 def test_the_same_bytes_as_the_command(tmp_path, command, shape, made):
     shape.write(tmp_path / "shape.off")
     command("make", tmp_path / "shape.off", "-o", tmp_path / "out")

@@ -5,7 +5,7 @@ mod common;
 use common::{cases, coarse, data, dense};
 use nalgebra::{Matrix2, Rotation3, Vector3};
 use polycube::generate::{Cuboid, Example, Voxels, example, random_polycube};
-use polycube::make::{self, Made, MakeOptions, make};
+use polycube::make::{self, Axes, Made, MakeOptions, make};
 use polycube::mesh::{CellKind, Cells, Mesh, Point, Simplices, read, write_bytes};
 use polycube::remesh::{RemeshOptions, Size, Stages};
 use polycube::structure::{Polycube, Tolerance};
@@ -175,6 +175,24 @@ fn the_faces_between_sharp_creases_are_the_facets() {
         assert_good(&turned, &found, "a polycube, turned");
         assert_eq!((found.report.corners, found.report.folded.len()), (corners, 0));
     }
+}
+
+#[test]
+fn a_part_that_lies_askew_gets_the_corners_it_has_upright() {
+    let (upright, _) = example(Example::SteppedL, 1, CellKind::Triangles).unwrap();
+    let turn = Rotation3::from_euler_angles(0.4, -0.3, 0.5);
+    let askew = Mesh::new(upright.points().iter().map(|p| turn * p).collect(), upright.cells().clone()).unwrap();
+    let along = MakeOptions { axes: Axes::Best, ..MakeOptions::default() };
+    let [own, best] = [&upright, &askew].map(|shape| make(shape, &along, &Context::default()).unwrap());
+    assert_good(&askew, &best, "askew");
+    assert_eq!((best.report.corners, own.report.rotation), (own.report.corners, None));
+    assert!(best.report.misfit < 1e-9, "{}", best.report.misfit);
+    let rows = best.report.rotation.expect("it was turned");
+    assert!((nalgebra::Matrix3::from_fn(|i, j| rows[i][j]) * turn.matrix()).abs().is_identity(1e-6));
+    let size = Some(Size::Hexes(400));
+    let (_, meshes) =
+        make::remesh(&askew, &along, &RemeshOptions { size, ..RemeshOptions::default() }, &Context::default()).unwrap();
+    assert_eq!((meshes.report.inverted, meshes.report.within_hausdorff), (0, true));
 }
 
 #[test]

@@ -27,7 +27,8 @@ In the output folder:
 They appear together when all is done, or not at all. Then
   polycube remesh out/shape.EXT --polycube out/polycube.EXT --labels out/polycube.labels -o mesh
 meshes the shape. SHAPE is a closed surface of triangles or quadrilaterals, of any genus and any
-number of parts. The axes are those of the file: turn the shape to have another polycube.
+number of parts. Its axes are those of the file, or with --axes best those that the surface looks along
+best; report.json then has the rotation.
 With --labels, for shapes that another program has labelled, the charts are those of the labels, and
 they are only put in place; an error says where labels are not those of a polycube.
 Exit code 4: the files are written, but the map is folded in places, which report.json lists.";
@@ -37,7 +38,8 @@ Exit code 4: the files are written, but the map is folded in places, which repor
 #[command(
     after_help = NOTES,
     mut_arg("detail", |detail| detail.conflicts_with("labels")),
-    mut_arg("corners", |corners| corners.conflicts_with("labels"))
+    mut_arg("corners", |corners| corners.conflicts_with("labels")),
+    mut_arg("axes", |axes| axes.conflicts_with("labels"))
 )]
 pub struct Args {
     /// The shape: a mesh file of a closed surface

@@ -77,7 +77,10 @@ fn options_of_making_and_of_a_polycube_exclude_each_other() {
     for (arguments, word) in [
         ("--polycube shape.obj --detail 0.3", "--detail"),
         ("--polycube shape.obj --corners 9", "--corners"),
+        ("--polycube shape.obj --axes best", "--axes"),
         ("--labels x.labels --detail 0.3", "--detail"),
+        ("--labels x.labels --axes best", "--axes"),
+        ("--axes worst", "[possible values: keep, best]"),
         ("--detail 1.5", "from 0 to 1"),
     ] {
         sandbox.fails(&format!("remesh shape.obj -o out {arguments}"), 2, &[word]);

@@ -44,6 +44,7 @@ _Path = str | os.PathLike[str]
 _Kind = Literal["triangles", "quads", "tetrahedra", "hexahedra"]
 _Strategy = Literal["best", "paper", "naive"]
 _Objective = Literal["blocks_padded", "blocks", "surface_patches"]
+_Axes = Literal["keep", "best"]
 _Solver = Literal["exact", "linear"]
 # Stage and fraction done. What it returns is not looked at; what it raises stops the work and is raised by the call.
 _Progress = Callable[[str, float], object]
@@ -289,7 +290,12 @@ class Job(Generic[_T_co]):
     def __class_getitem__(cls, item: Any) -> GenericAlias: ...
     @staticmethod
     def make(
-        shape: Mesh, *, detail: float | None = None, corners: int | None = None, labels: npt.ArrayLike | None = None
+        shape: Mesh,
+        *,
+        detail: float | None = None,
+        corners: int | None = None,
+        axes: _Axes | None = None,
+        labels: npt.ArrayLike | None = None,
     ) -> Job[Made]: ...
     @staticmethod
     def simplify(
@@ -321,6 +327,7 @@ class Job(Generic[_T_co]):
         *,
         detail: float | None = None,
         corners: int | None = None,
+        axes: _Axes | None = None,
         labels: npt.ArrayLike | None = None,
         hexes: int | None = None,
         edge_length: float | None = None,
@@ -379,6 +386,7 @@ def make(
     *,
     detail: float | None = None,
     corners: int | None = None,
+    axes: _Axes | None = None,
     labels: npt.ArrayLike | None = None,
     progress: _Progress | None = None,
     cancel: _Flag | None = None,
@@ -413,6 +421,7 @@ def remesh(
     *,
     detail: float | None = None,
     corners: int | None = None,
+    axes: _Axes | None = None,
     labels: npt.ArrayLike | None = None,
     hexes: int | None = None,
     edge_length: float | None = None,

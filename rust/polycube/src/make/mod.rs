@@ -5,6 +5,7 @@
 //! polycube's facets on the surface, and `embedding` puts them in space, apart from each other, and lays each chart
 //! flat in its facet.
 
+mod axes;
 mod charts;
 mod embedding;
 mod labelled;
@@ -12,6 +13,7 @@ mod loops;
 mod meshed;
 mod report;
 
+pub use axes::Axes;
 pub use meshed::remesh;
 pub use report::{MakeReport, MakeSeconds};
 
@@ -20,6 +22,7 @@ use crate::error::{Error, ErrorKind, Place, Result};
 use crate::input::Input;
 use crate::mesh::{Face, Mesh};
 use crate::structure::Surface;
+use axes::{turn_back, turned};
 use charts::ChartedSurface;
 use embedding::{Embedded, Levels};
 use labelled::Labelled;
@@ -41,17 +44,19 @@ pub struct MakeOptions {
     pub detail: f64,
     /// Take corners away until no more than these are left, as far as the shape allows, whatever `detail` says.
     pub corners: Option<usize>,
+    /// Which directions of the shape become the axes of the polycube; those of the coordinates by default.
+    pub axes: Axes,
     /// One label for each face of the shape, 0 to 5 for +X −X +Y −Y +Z −Z, as programs that label shapes leave them.
-    /// With them nothing is searched for, and `detail` and `corners` have no effect: the charts stay as they are, their
-    /// facets are put apart from each other on integer levels, and the charts laid flat in them. Labels do not say
-    /// whether edges run up or down: the shape tells.
+    /// With them nothing is searched for, and `detail`, `corners` and `axes` have no effect: the charts stay as they
+    /// are, their facets are put apart from each other on integer levels, and the charts laid flat in them. Labels do
+    /// not say whether edges run up or down: the shape tells.
     #[serde(skip)]
     pub labels: Option<Vec<i8>>,
 }
 
 impl Default for MakeOptions {
     fn default() -> Self {
-        Self { detail: 0.5, corners: None, labels: None }
+        Self { detail: 0.5, corners: None, axes: Axes::Keep, labels: None }
     }
 }
 
@@ -136,15 +141,24 @@ pub fn make(shape: &Mesh, options: &MakeOptions, context: &Context) -> Result<Ma
     let clock = Instant::now();
     context.tick(0.0)?;
     let surface = surface(shape)?;
+    let turn = options.axes.turn(shape).filter(|_| options.labels.is_none());
+    let turned_shape = turn.map(|turn| turned(shape, &turn));
+    let upright = turned_shape.as_ref().unwrap_or(shape);
     let Found { embedded, structure } = match &options.labels {
         Some(labels) => of_labels(shape, &surface, labels, context)?,
-        None => match of_creases(shape, &surface, options, &context.stage("embed", 0.0, 0.1))? {
+        None => match of_creases(upright, &surface, options, &context.stage("embed", 0.0, 0.1))? {
             Some(found) => found,
-            None => of_loops(shape, &surface, options, &context.stage("loops", 0.1, 1.0))?,
+            None => of_loops(upright, &surface, options, &context.stage("loops", 0.1, 1.0))?,
         },
     };
     let total = clock.elapsed().as_secs_f64();
-    finish(shape, embedded, MakeSeconds { structure, embedding: total - structure, total })
+    let seconds = MakeSeconds { structure, embedding: total - structure, total };
+    let mut made = finish(upright, embedded, seconds)?;
+    if let Some(turn) = turn {
+        turn_back(&mut made.shape, shape, &turn);
+        made.report.rotation = Some(turn.transpose().into());
+    }
+    Ok(made)
 }
 
 /// An error about a triangle as one about the face that it is part of.

@@ -28,6 +28,9 @@ pub struct MakeReport {
     pub facets: usize,
     /// Handles, over all parts.
     pub genus: usize,
+    /// The rows of the rotation that takes directions of the shape to those of the polycube; nothing where its axes are
+    /// those of the coordinates.
+    pub rotation: Option<[[f64; 3]; 3]>,
     /// Mean over the surface of one minus the cosine between its normal and the direction of its facet: 0 for a
     /// polycube.
     pub misfit: f64,
@@ -52,6 +55,7 @@ impl MakeReport {
             edges: structure.edges.len(),
             facets: structure.facets.len(),
             genus: structure.genus(),
+            rotation: None,
             misfit: misfit(shape, &embedded.refined.labels()),
             squashed: squashed(shape, polycube),
             distortion: distortion(shape, polycube).ok().filter(|_| embedded.folded.is_empty()),

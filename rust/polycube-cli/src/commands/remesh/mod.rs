@@ -64,7 +64,8 @@ hexes.vtu) or the surface is farther from the shape than --max-hausdorff.
 #[command(
     after_help = NOTES,
     mut_arg("detail", |detail| detail.conflicts_with_all(["polycube", "labels"])),
-    mut_arg("corners", |corners| corners.conflicts_with_all(["polycube", "labels"]))
+    mut_arg("corners", |corners| corners.conflicts_with_all(["polycube", "labels"])),
+    mut_arg("axes", |axes| axes.conflicts_with_all(["polycube", "labels"]))
 )]
 pub struct Args {
     /// The shape: a mesh file with the vertices and cells of the polycube, or any closed surface without one
