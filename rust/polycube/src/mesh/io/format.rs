@@ -23,11 +23,31 @@ pub enum Format {
     Vtk,
     /// XML `.vtu`: all cells; every encoding but LZ4 and LZMA read, inline base64 written.
     Vtu,
+    /// XML `.vtp`: triangles or quadrilaterals, as `.vtu`.
+    Vtp,
+    /// Gmsh's `.msh`: all cells; versions 2.2 and 4.1, text or binary, read, 2.2 as text written.
+    Msh,
+    /// Abaqus' and CalculiX' `.inp`: all cells, as one part.
+    Inp,
+    /// Binary MEDIT `.meshb`: all cells; versions 1 to 4 read, 3 written.
+    Meshb,
 }
 
 impl Format {
     /// Every format.
-    pub const ALL: [Self; 7] = [Self::Obj, Self::Off, Self::Ply, Self::Stl, Self::Medit, Self::Vtk, Self::Vtu];
+    pub const ALL: [Self; 11] = [
+        Self::Obj,
+        Self::Off,
+        Self::Ply,
+        Self::Stl,
+        Self::Medit,
+        Self::Meshb,
+        Self::Vtk,
+        Self::Vtu,
+        Self::Vtp,
+        Self::Msh,
+        Self::Inp,
+    ];
 
     /// The format that the extension of `path` stands for, in upper or lower case.
     ///
@@ -51,15 +71,19 @@ impl Format {
             Self::Medit => "mesh",
             Self::Vtk => "vtk",
             Self::Vtu => "vtu",
+            Self::Vtp => "vtp",
+            Self::Msh => "msh",
+            Self::Inp => "inp",
+            Self::Meshb => "meshb",
         }
     }
 
     /// The kinds of cells that files of this format can hold.
     pub fn cells(self) -> &'static [CellKind] {
         match self {
-            Self::Obj | Self::Off | Self::Ply => &[CellKind::Triangles, CellKind::Quads],
+            Self::Obj | Self::Off | Self::Ply | Self::Vtp => &[CellKind::Triangles, CellKind::Quads],
             Self::Stl => &[CellKind::Triangles],
-            Self::Medit | Self::Vtk | Self::Vtu => &CellKind::ALL,
+            Self::Medit | Self::Meshb | Self::Vtk | Self::Vtu | Self::Msh | Self::Inp => &CellKind::ALL,
         }
     }
 
@@ -99,9 +123,8 @@ impl FromStr for Format {
 
 fn unknown(name: &str) -> Error {
     let remedy = match name.to_ascii_lowercase().as_str() {
-        "meshb" => "convert it to a text file with the extension .mesh",
-        "vtp" | "pvtu" | "vtm" => "export one unstructured grid as .vtu",
-        _ => "use one of .obj, .off, .ply, .stl, .mesh, .vtk, .vtu",
+        "pvtu" | "vtm" => "export one unstructured grid as .vtu",
+        _ => "use one of .obj, .off, .ply, .stl, .mesh, .meshb, .vtk, .vtu, .vtp, .msh, .inp",
     };
     let message = match name {
         "" => "no file extension tells the mesh format".to_owned(),

@@ -1,4 +1,4 @@
-//! Mesh files: OBJ, OFF, PLY, STL, MEDIT, VTK and VTU, and those of solvers, which are only written.
+//! Mesh files: OBJ, OFF, PLY, STL, MEDIT, VTK, VTU, VTP, Gmsh and Abaqus, and those of solvers, which are only written.
 //!
 //! Every reader takes the bytes of a file and returns a [`Mesh`] or an [`Error`] that says where the file
 //! is wrong. No input panics, loops, or takes more memory than in proportion to its size.

@@ -131,6 +131,14 @@ impl<'a> Scanner<'a> {
         Ok(taken)
     }
 
+    /// Moves past the next occurrence of `mark`.
+    pub(super) fn past(&mut self, mark: &[u8]) -> Result<()> {
+        let rest = &self.bytes[self.at..];
+        let at = rest.windows(mark.len()).position(|window| window == mark);
+        let at = at.ok_or_else(|| self.truncated(&quoted(mark)))?;
+        self.take(at + mark.len(), "a mark").map(|_| ())
+    }
+
     /// The error `message` at the current line.
     pub(super) fn error(&self, message: impl Into<String>) -> Error {
         Error::new(ErrorKind::Parse, message).at(Place::Line(self.line))

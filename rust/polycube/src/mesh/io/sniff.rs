@@ -13,12 +13,19 @@ pub(super) fn format(bytes: &[u8]) -> Option<Format> {
         return Some(Format::Vtk);
     }
     if text.starts_with(b"<") {
-        return text.windows(7).any(|w| w == b"VTKFile").then_some(Format::Vtu);
+        let has = |word: &[u8]| text.windows(word.len()).any(|w| w == word);
+        let kind = if has(b"\"PolyData\"") { Format::Vtp } else { Format::Vtu };
+        return has(b"VTKFile").then_some(kind);
+    }
+    if matches!(bytes, [1, 0, 0, 0, ..] | [0, 0, 0, 1, ..]) {
+        return Some(Format::Meshb);
     }
     let mut lines = text.split(|&b| b == b'\n').map(<[u8]>::trim_ascii);
     let line = lines.find(|line| !line.is_empty() && !line.starts_with(b"#"))?;
     match line.split(u8::is_ascii_whitespace).next()? {
         b"ply" => Some(Format::Ply),
+        b"$MeshFormat" => Some(Format::Msh),
+        word if word.starts_with(b"*") => Some(Format::Inp),
         b"v" | b"vn" | b"vt" | b"f" | b"o" | b"g" | b"s" | b"mtllib" | b"usemtl" => Some(Format::Obj),
         word if word.eq_ignore_ascii_case(b"MeshVersionFormatted") => Some(Format::Medit),
         word if word.eq_ignore_ascii_case(b"solid") => Some(Format::Stl),

@@ -1,13 +1,18 @@
 //! One file for each format of meshes.
 
+mod abaqus;
+mod gmsh;
 mod medit;
+mod meshb;
 mod obj;
 mod off;
 mod ply;
-mod ply_header;
+
 pub(super) mod stl;
 mod vtk;
 mod vtk_cells;
+mod vtk_xml;
+mod vtp;
 mod vtu;
 mod vtu_data;
 
@@ -27,6 +32,10 @@ pub(super) fn read(format: Format, bytes: &[u8]) -> Result<Soup> {
         Format::Medit => medit::read(bytes),
         Format::Vtk => vtk::read(bytes),
         Format::Vtu => vtu::read(bytes),
+        Format::Vtp => vtp::read(bytes),
+        Format::Msh => gmsh::read(bytes),
+        Format::Inp => abaqus::read(bytes),
+        Format::Meshb => meshb::read(bytes),
     }
 }
 
@@ -40,5 +49,9 @@ pub(super) fn write(format: Format, mesh: &Mesh, fields: &[CellField]) -> Result
         Format::Medit => Ok(medit::write(mesh, fields)),
         Format::Vtk => Ok(vtk::write(mesh, fields)),
         Format::Vtu => Ok(vtu::write(mesh, fields)),
+        Format::Vtp => Ok(vtp::write(mesh, fields)),
+        Format::Msh => Ok(gmsh::write(mesh)),
+        Format::Inp => Ok(abaqus::write(mesh)),
+        Format::Meshb => Ok(meshb::write(mesh)),
     }
 }

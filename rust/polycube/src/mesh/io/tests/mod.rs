@@ -70,7 +70,7 @@ fn formats_are_told_by_extension() {
         assert_eq!(Format::from_path(Path::new(&path)).unwrap(), format);
         assert_eq!(format.to_string().parse::<Format>().unwrap(), format);
     }
-    for path in ["mesh", "a.meshb", "a.stp", "dir.obj/x", ""] {
+    for path in ["mesh", "a.pvtu", "a.stp", "dir.obj/x", ""] {
         let error = Format::from_path(Path::new(path)).unwrap_err();
         assert_eq!(error.kind, ErrorKind::Unsupported);
         assert!(!error.remedy.is_empty());

@@ -1,6 +1,7 @@
 //! Stanford PLY: the positions of the element `vertex` and the corners of the element `face`.
 
-use super::ply_header::{Element, Encoding, Property, header};
+mod header;
+
 use crate::error::{Error, ErrorKind, Result};
 use crate::mesh::io::field::{CellField, FieldValues};
 use crate::mesh::io::scalar::{Scalar, whole};
@@ -8,6 +9,7 @@ use crate::mesh::io::scan::Scanner;
 use crate::mesh::io::soup::Soup;
 use crate::mesh::io::text::Text;
 use crate::mesh::{Mesh, Point};
+use header::{Element, Encoding, Property, header};
 
 /// Reads a mesh; all other elements and properties are ignored.
 pub(super) fn read(bytes: &[u8]) -> Result<Soup> {
