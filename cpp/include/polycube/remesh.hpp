@@ -157,8 +157,8 @@ Remeshed remesh(const Mesh& shape, const RemeshOptions& options = {}, const Cont
 /// inp of Abaqus and CalculiX, su2 of SU2 (boundary only), foam for the folder of an OpenFOAM case; or the block
 /// structure itself: json, xyz of Plot3D (no names), blockmesh for the folder of a case with a blockMeshDict.
 ///
-/// @throws Error io, unsupported (another extension, or blocks that blockMesh cannot tell apart), mismatch (the boundary
-/// is not that of the mesh, or blocks are no boxes).
+/// @throws Error io, unsupported (another extension, or blocks that blockMesh cannot tell apart), mismatch (the
+/// boundary is not that of the mesh, or blocks are no boxes).
 void write_solver(const std::string& path, const HexMesh& hexes);
 
 }  // namespace polycube

@@ -110,9 +110,9 @@ def test_the_same_bytes_as_the_command(tmp_path, command, pair, meshes):
     for extension in solvers:
         meshes.hexes.write(tmp_path / f"hexes.{extension}")
     names = ["hexes.vtu", "quads.obj", "layout.obj", "layout.vtk", "hexes.msh", "hexes.inp", "hexes.su2", "hexes.xyz"]
-    dictionary = "system/blockMeshDict"
+    case = ["system/blockMeshDict", "constant/triSurface/boundary.obj"]
     other = [("own.mesh", "polycube.mesh"), ("hexes.json", "blocks.json")]
-    other.append((f"hexes.blockmesh/{dictionary}", f"blockmesh/{dictionary}"))
+    other += [(f"hexes.blockmesh/{file}", f"blockmesh/{file}") for file in case]
     for own, theirs in [*zip(names, names), *other]:
         assert (tmp_path / own).read_bytes() == (tmp_path / "out" / theirs).read_bytes(), theirs
     case = tmp_path / "hexes.foam" / "constant" / "polyMesh"

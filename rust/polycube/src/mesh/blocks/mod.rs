@@ -1,5 +1,5 @@
-//! The block structure of a mesh of hexahedra: each block a grid, what lies beyond its faces, and which of its edges have
-//! as many hexahedra as which others.
+//! The block structure of a mesh of hexahedra: each block a grid, what lies beyond its faces, and which of its edges
+//! have as many hexahedra as which others.
 
 mod across;
 mod classes;
@@ -19,8 +19,8 @@ pub const BLOCK_FACES: [&str; 6] = ["-i", "+i", "-j", "+j", "-k", "+k"];
 
 /// A box of hexahedra.
 ///
-/// Its axes i, j and k are those of its first hexahedron in VTK's order, and are right-handed where that is. Vertices and
-/// hexahedra are counted from the lower end of each axis.
+/// Its axes i, j and k are those of its first hexahedron in VTK's order, and are right-handed where that is. Vertices
+/// and hexahedra are counted from the lower end of each axis.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Block {
     /// Its number among [`GroupedHexes::blocks`].
@@ -72,8 +72,8 @@ pub struct Neighbour {
 pub struct Blocks {
     /// The blocks that are not empty, in the order of [`GroupedHexes::blocks`].
     pub blocks: Vec<Block>,
-    /// How many hexahedra lie along the edges of each class. Edges are in one class that lie opposite to each other in a
-    /// block, and so on from block to block: who changes the number of one changes that of all.
+    /// How many hexahedra lie along the edges of each class. Edges are in one class that lie opposite to each other in
+    /// a block, and so on from block to block: who changes the number of one changes that of all.
     pub classes: Vec<u32>,
 }
 

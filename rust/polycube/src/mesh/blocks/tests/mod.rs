@@ -31,7 +31,7 @@ fn sorted(face: &[u32]) -> [u32; 4] {
     face
 }
 
-/// The mesh with its hexahedra in another order, each block's turned as one of the 24 ways and each other one as another.
+/// The mesh with each of its hexahedra turned at random, in one of the 24 ways.
 fn turned(mesh: &Mesh, seed: u64) -> Mesh {
     let mut random = SplitMix64::new(seed);
     let mut turn = |cell: &[u32; 8]| {

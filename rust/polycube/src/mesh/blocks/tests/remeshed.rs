@@ -23,8 +23,7 @@ fn hollow() -> (Mesh, Mesh) {
     (mesh.clone(), mesh)
 }
 
-/// Hexahedra lie all one way, so that axes go on as they are, but for those of the padding. That is as many layers thick
-/// wherever it lies around one part of the surface, and its edges run from the blocks outward.
+/// Padding is as many layers thick wherever it lies around one part of the surface, and its edges run outward.
 #[test]
 fn padding_is_one_class_around_each_part_of_the_surface() {
     for (pair, parts) in [

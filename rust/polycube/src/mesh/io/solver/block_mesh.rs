@@ -1,4 +1,5 @@
 //! The dictionary of OpenFOAM's blockMesh: the corners of blocks, how many hexahedra they have, and their edges.
+//! Between edges blockMesh interpolates, and then puts the vertices of the outside on a surface, which is written, too.
 
 use crate::error::{Error, ErrorKind, Result};
 use crate::mesh::hexahedron::FACES;
@@ -7,7 +8,25 @@ use crate::mesh::{Beyond, Block, Blocks, GroupedHexes, Point};
 use std::collections::{BTreeMap, BTreeSet};
 
 /// The files of a case, in the order of [`write`].
-pub(super) const FILES: [&str; 1] = ["system/blockMeshDict"];
+pub(super) const FILES: [&str; 2] = ["system/blockMeshDict", "constant/triSurface/boundary.obj"];
+
+const HEADER: &str = "\
+FoamFile
+{
+    version 2.0;
+    format ascii;
+    class dictionary;
+    object blockMeshDict;
+}
+geometry
+{
+    boundary
+    {
+        type triSurfaceMesh;
+        // Not by its name alone, as versions look in different folders.
+        file \"$FOAM_CASE/constant/triSurface/boundary.obj\";
+    }
+}";
 
 /// Of the edges along each axis of a block, in the order of `hexahedron::EDGES`, the order that blockMesh has them in.
 const EDGE_ORDER: [[usize; 4]; 3] = [[0, 1, 3, 2], [0, 1, 3, 2], [0, 1, 2, 3]];
@@ -16,12 +35,12 @@ const EDGE_ORDER: [[usize; 4]; 3] = [[0, 1, 3, 2], [0, 1, 3, 2], [0, 1, 2, 3]];
 ///
 /// # Errors
 /// [`ErrorKind::Unsupported`] where two edges or faces have the same corners, by which alone blockMesh knows them.
-pub(super) fn write(hexes: &GroupedHexes, blocks: &Blocks) -> Result<[Vec<u8>; 1]> {
+pub(super) fn write(hexes: &GroupedHexes, blocks: &Blocks) -> Result<[Vec<u8>; 2]> {
     check_faces(hexes, blocks)?;
     let corners: BTreeSet<u32> = blocks.blocks.iter().flat_map(corners).collect();
     let corners = corners.into_iter().zip(0..).collect();
     let dictionary = Dictionary { hexes, blocks, corners, edges: edges(hexes, blocks)? };
-    Ok([dictionary.text().into_bytes()])
+    Ok([dictionary.text(), surface(hexes)].map(Text::into_bytes))
 }
 
 struct Dictionary<'a> {
@@ -36,15 +55,14 @@ struct Dictionary<'a> {
 impl Dictionary<'_> {
     fn text(&self) -> Text {
         let mut text = Text::default();
-        text.put(
-            "FoamFile\n{\n    version 2.0;\n    format ascii;\n    class dictionary;\n    object blockMeshDict;\n}\n",
-        );
-        text.put("convertToMeters 1;\nvertices\n(\n");
+        text.put(HEADER).put("\nvertices\n(\n");
         self.corners.keys().for_each(|&v| text.put('(').point(self.point(v)).put(')').end());
         text.put(");\nblocks\n(\n");
         self.blocks.blocks.iter().for_each(|block| self.block(&mut text, block));
         text.put(");\nedges\n(\n");
         self.edges.values().filter(|edge| edge.len() > 2).for_each(|edge| self.edge(&mut text, edge));
+        text.put(");\nfaces\n(\n");
+        self.faces(&mut text);
         text.put(");\nboundary\n(\n");
         self.boundary(&mut text);
         text.put(");\n");
@@ -87,13 +105,26 @@ impl Dictionary<'_> {
         text.put(")\n");
     }
 
+    /// The faces that are put on the surface. Those without inner vertices are where they belong, and blockMesh would
+    /// divide by their number.
+    fn faces(&self, text: &mut Text) {
+        for (block, face) in self.blocks.blocks.iter().flat_map(|block| (0..FACES.len()).map(move |face| (block, face)))
+        {
+            let has_inner = (0..3).all(|axis| axis == face / 2 || block.size[axis] > 1);
+            if has_inner && matches!(block.faces[face], Beyond::Outside { .. }) {
+                let numbers = self.numbers(&corners_of(block, face));
+                text.put(format_args!("project ({numbers}) boundary\n"));
+            }
+        }
+    }
+
     /// The patches with the faces of blocks.
     fn boundary(&self, text: &mut Text) {
         let mut faces: BTreeMap<(u32, u32), Vec<[u32; 4]>> = BTreeMap::new();
         for block in &self.blocks.blocks {
-            for (beyond, face) in block.faces.iter().zip(FACES) {
+            for (face, beyond) in block.faces.iter().enumerate() {
                 if let &Beyond::Outside { patch, side } = beyond {
-                    faces.entry((patch, side)).or_default().push(face.map(|k| corners(block)[k]));
+                    faces.entry((patch, side)).or_default().push(corners_of(block, face));
                 }
             }
         }
@@ -120,6 +151,22 @@ fn corners(block: &Block) -> [u32; 8] {
     block.corners().map(|at| block.vertex(at))
 }
 
+/// The corners of a face of a block, counter-clockwise seen from outside.
+fn corners_of(block: &Block, face: usize) -> [u32; 4] {
+    FACES[face].map(|k| corners(block)[k])
+}
+
+/// The outside as an OBJ file.
+fn surface(hexes: &GroupedHexes) -> Text {
+    let quads: Vec<[u32; 4]> = (0..hexes.boundary().len()).map(|face| hexes.quad(face as u32)).collect();
+    let vertices: BTreeSet<u32> = quads.iter().flatten().copied().collect();
+    let mut text = Text::default();
+    vertices.iter().for_each(|&v| text.put("v ").point(&hexes.mesh().points()[v as usize]).end());
+    let number: BTreeMap<u32, u32> = vertices.into_iter().zip(0..).collect();
+    quads.iter().for_each(|quad| text.put('f').indices(&quad.map(|v| number[&v]), 1).end());
+    text
+}
+
 /// All edges of blocks by their ends.
 fn edges(hexes: &GroupedHexes, blocks: &Blocks) -> Result<BTreeMap<[u32; 2], Vec<u32>>> {
     let mut all: BTreeMap<[u32; 2], Vec<u32>> = BTreeMap::new();
@@ -140,15 +187,16 @@ fn edges(hexes: &GroupedHexes, blocks: &Blocks) -> Result<BTreeMap<[u32; 2], Vec
 /// Refuses faces that have the corners of another one, and blocks that have a corner twice.
 fn check_faces(hexes: &GroupedHexes, blocks: &Blocks) -> Result<()> {
     let mut known: BTreeMap<[u32; 4], usize> = BTreeMap::new();
-    let all = || blocks.blocks.iter().flat_map(|block| block.faces.iter().zip(FACES).map(move |face| (block, face)));
-    let key = |block: &Block, face: [usize; 4]| {
-        let mut key = face.map(|k| corners(block)[k]);
+    let all = || blocks.blocks.iter().flat_map(|block| (0..FACES.len()).map(move |face| (block, face)));
+    let key = |block: &Block, face: usize| {
+        let mut key = corners_of(block, face);
         key.sort_unstable();
         key
     };
-    all().for_each(|(block, (_, face))| *known.entry(key(block, face)).or_default() += 1);
-    for (block, (beyond, face)) in all() {
-        let (key, sharing) = (key(block, face), if matches!(beyond, Beyond::Block(_)) { 2 } else { 1 });
+    all().for_each(|(block, face)| *known.entry(key(block, face)).or_default() += 1);
+    for (block, face) in all() {
+        let sharing = if matches!(block.faces[face], Beyond::Block(_)) { 2 } else { 1 };
+        let key = key(block, face);
         if known[&key] != sharing || key.windows(2).any(|pair| pair[0] == pair[1]) {
             return Err(ambiguous(hexes, block, "face"));
         }

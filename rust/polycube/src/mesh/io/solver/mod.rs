@@ -31,13 +31,14 @@ pub enum SolverFormat {
     /// OpenFOAM's `constant/polyMesh`, as text: a patch for each patch, in the group of its side, and a cell zone for
     /// each block.
     Foam,
-    /// The block structure as JSON: `points`, and of each block its grid of vertices, what lies beyond its faces, and the
-    /// classes of its edges; the guide has the schema.
+    /// The block structure as JSON: `points`, and of each block its grid of vertices, what lies beyond its faces, and
+    /// the classes of its edges; the guide has the schema.
     Json,
     /// Plot3D's grid of many blocks, as text: all points of each block. It has no room for names.
     Xyz,
-    /// The `system/blockMeshDict` that OpenFOAM's blockMesh makes the blocks of, with all vertices of their edges in
-    /// place: a patch for each patch, in the group of its side, and a cell zone for each block.
+    /// The `system/blockMeshDict` that OpenFOAM's blockMesh makes the blocks of: a patch for each patch, in the group
+    /// of its side, and a cell zone for each block. The vertices of edges are in place, and those of the outside on
+    /// the surface that is in `constant/triSurface`; what is between is interpolated.
     BlockMesh,
 }
 
@@ -102,8 +103,8 @@ impl FromStr for SolverFormat {
 /// case in a folder `foam` or `blockmesh`. The same mesh always gives the same bytes. O(n log n) for n hexahedra.
 ///
 /// # Errors
-/// Where the format has the block structure, those of [`Blocks::new`]; of blockMesh [`ErrorKind::Unsupported`], too, where
-/// two edges or faces of blocks have the same corners.
+/// Where the format has the block structure, those of [`Blocks::new`]; of blockMesh [`ErrorKind::Unsupported`], too,
+/// where two edges or faces of blocks have the same corners.
 pub fn write_solver_bytes(format: SolverFormat, name: &str, hexes: &GroupedHexes) -> Result<Vec<(String, Vec<u8>)>> {
     Ok(format.files(name).into_iter().zip(bytes(format, hexes)?).collect())
 }
@@ -121,11 +122,13 @@ fn bytes(format: SolverFormat, hexes: &GroupedHexes) -> Result<Vec<Vec<u8>>> {
     })
 }
 
-/// Writes a mesh for the solver that the extension of `path` names, whole or not at all. `NAME.foam` and `NAME.blockmesh`
-/// are folders of cases, whose `constant/polyMesh` or `system/blockMeshDict` is written; what else is in them stays.
+/// Writes a mesh for the solver that the extension of `path` names, whole or not at all. `NAME.foam` and
+/// `NAME.blockmesh` are folders of cases, whose mesh, or `system/blockMeshDict` with its surface, is written; what else
+/// is in them stays.
 ///
 /// # Errors
-/// [`ErrorKind::Unsupported`] for another extension; those of [`write_solver_bytes`]; [`ErrorKind::Io`] naming the file.
+/// [`ErrorKind::Unsupported`] for another extension; those of [`write_solver_bytes`]; [`ErrorKind::Io`] naming the
+/// file.
 pub fn write_solver(path: &Path, hexes: &GroupedHexes) -> Result<()> {
     let format: SolverFormat = path.extension().unwrap_or_default().to_string_lossy().parse()?;
     let bytes = bytes(format, hexes)?;

@@ -62,6 +62,21 @@ fn edges_have_all_their_vertices() {
     assert_eq!(sections.collect::<Vec<_>>(), [vec![1; 4], vec![2; 8], vec![2; 12]].concat());
 }
 
+/// Faces with inner vertices are put on the surface of the box, as seen from outside.
+#[test]
+fn wide_faces_of_the_outside_lie_on_its_surface() {
+    let mesh = box_mesh();
+    let hexes = grouped(&mesh);
+    let [text, surface] = texts(SolverFormat::BlockMesh, &hexes).try_into().unwrap();
+    // All of the second block but the one between, and of the first, one hexahedron thick, that across it.
+    assert_eq!(section(&text, "faces").lines().filter(|line| line.ends_with(") boundary")).count(), 6);
+    let of = |key: &'static str| surface.lines().filter_map(move |line| line.strip_prefix(key));
+    let points: Vec<Point> = of("v ").map(numbers::<f64>).map(|p| Point::new(p[0], p[1], p[2])).collect();
+    assert_eq!(points.len(), QUADS + 2);
+    let quads: Vec<[u32; 4]> = of("f ").map(|line| array(&numbers::<u32>(line), 1)).collect();
+    encloses_the_box(&points, &quads);
+}
+
 /// blockMesh tells faces apart by their corners alone.
 #[test]
 fn blocks_with_the_same_corners_are_refused() {

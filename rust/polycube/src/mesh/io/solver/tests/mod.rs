@@ -129,7 +129,8 @@ fn files_have_names_and_formats_are_read_back() {
     assert_eq!(SolverFormat::Xyz.files("box"), ["box.xyz"]);
     assert_eq!(SolverFormat::Json.files("box"), ["blocks.json"]);
     assert_eq!(SolverFormat::Foam.files("box")[0], "foam/constant/polyMesh/points");
-    assert_eq!(SolverFormat::BlockMesh.files("box"), ["blockmesh/system/blockMeshDict"]);
+    let case = SolverFormat::BlockMesh.files("box");
+    assert_eq!(case, ["blockmesh/system/blockMeshDict", "blockmesh/constant/triSurface/boundary.obj"]);
     let error = "cgns".parse::<SolverFormat>().unwrap_err();
     assert!(error.kind == ErrorKind::Unsupported && error.remedy.contains("msh"), "{error}");
 }
