@@ -78,7 +78,8 @@ TEST_CASE("remesh writes what the command writes") {
         const std::string within = std::string("/constant/polyMesh/") + file;
         same(folder / ("case.foam" + within), folder / ("out/foam" + within));
     }
-    for (const char* file : {"/system/blockMeshDict", "/constant/triSurface/boundary.obj"}) {
+    for (const char* file : {"/system/blockMeshDict", "/constant/triSurface/boundary.obj",
+                             "/constant/triSurface/between.obj"}) {
         same(folder / (std::string("case.blockmesh") + file), folder / (std::string("out/blockmesh") + file));
     }
 }

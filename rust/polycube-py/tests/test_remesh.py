@@ -110,7 +110,8 @@ def test_the_same_bytes_as_the_command(tmp_path, command, pair, meshes):
     for extension in solvers:
         meshes.hexes.write(tmp_path / f"hexes.{extension}")
     names = ["hexes.vtu", "quads.obj", "layout.obj", "layout.vtk", "hexes.msh", "hexes.inp", "hexes.su2", "hexes.xyz"]
-    case = ["system/blockMeshDict", "constant/triSurface/boundary.obj"]
+    surfaces = [f"constant/triSurface/{name}.obj" for name in ("boundary", "between")]
+    case = ["system/blockMeshDict", *surfaces]
     other = [("own.mesh", "polycube.mesh"), ("hexes.json", "blocks.json")]
     other += [(f"hexes.blockmesh/{file}", f"blockmesh/{file}") for file in case]
     for own, theirs in [*zip(names, names), *other]:

@@ -87,7 +87,7 @@ fn formats_for_solvers_may_be_several_and_go_with_the_next_run() {
     let files = ["boundary", "cellZones", "faces", "neighbour", "owner", "points"];
     assert_eq!(sandbox.names("out/foam/constant/polyMesh"), files);
     assert_eq!(sandbox.names("out/blockmesh/system"), ["blockMeshDict"]);
-    assert_eq!(sandbox.names("out/blockmesh/constant/triSurface"), ["boundary.obj"]);
+    assert_eq!(sandbox.names("out/blockmesh/constant/triSurface"), ["between.obj", "boundary.obj"]);
     sandbox.ok(line);
     assert_eq!(sandbox.names("out"), without);
 }

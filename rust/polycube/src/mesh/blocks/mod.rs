@@ -142,6 +142,18 @@ impl Block {
         super::hexahedron::OCTANTS.map(|octant| [0, 1, 2].map(|a| if octant >> a & 1 == 1 { self.size[a] } else { 0 }))
     }
 
+    /// The quadrilaterals of a face, 0 to 5; some look inward.
+    pub(super) fn quads(&self, face: usize) -> Vec<[u32; 4]> {
+        let [u, v] = [[1, 2], [0, 2], [0, 1]][face / 2];
+        let mut at = [if face % 2 == 1 { self.size[face / 2] } else { 0 }; 3];
+        let mut vertex = |[x, y]: [u32; 2]| {
+            (at[u], at[v]) = (x, y);
+            self.vertex(at)
+        };
+        let all = (0..self.size[v]).flat_map(|y| (0..self.size[u]).map(move |x| [x, y]));
+        all.map(|[x, y]| [[x, y], [x + 1, y], [x + 1, y + 1], [x, y + 1]].map(&mut vertex)).collect()
+    }
+
     /// The vertices along the edge that begins at a corner, in the direction of an axis.
     pub(super) fn edge(&self, corner: [u32; 3], axis: usize) -> Vec<u32> {
         let mut at = corner;

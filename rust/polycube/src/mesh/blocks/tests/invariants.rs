@@ -108,7 +108,7 @@ fn classes_go_on_in_neighbours(blocks: &Blocks) {
     }
     assert_eq!(count, blocks.classes.len());
     for (block, found) in blocks.blocks.iter().zip(&found) {
-        for axis in 0..3 {
+        for axis in [0, 1, 2] {
             assert_eq!(found[axis], Some((block.class[axis] as usize, block.sign[axis].into())));
             assert_eq!(block.size[axis], blocks.classes[block.class[axis] as usize]);
         }

@@ -52,7 +52,7 @@ fn cut(mesh: &Mesh, planes: [&[f64]; 3]) -> Vec<u32> {
         |cell: &[u32; 8]| cell.iter().map(|&v| mesh.points()[v as usize].coords).sum::<nalgebra::Vector3<f64>>() / 8.0;
     let rank = |cell| [0, 1, 2].map(|a| planes[a].partition_point(|&p| p < middle(cell)[a]) as u32);
     let count = planes.map(|p| p.len() as u32 + 1);
-    cells(mesh).iter().map(|c| rank(c)).map(|[x, y, z]| (z * count[1] + y) * count[0] + x).collect()
+    cells(mesh).iter().map(rank).map(|[x, y, z]| (z * count[1] + y) * count[0] + x).collect()
 }
 
 /// The hexahedra of a box whose last layer along z is glued to the first, turned by `turn`: what wraps round.

@@ -1,5 +1,5 @@
 //! The dictionary of OpenFOAM's blockMesh: the corners of blocks, how many hexahedra they have, and their edges.
-//! Between edges blockMesh interpolates, and then puts the vertices of the outside on a surface, which is written, too.
+//! Between edges blockMesh interpolates, and then puts the vertices of faces on surfaces, which are written, too.
 
 use crate::error::{Error, ErrorKind, Result};
 use crate::mesh::hexahedron::FACES;
@@ -8,7 +8,8 @@ use crate::mesh::{Beyond, Block, Blocks, GroupedHexes, Point};
 use std::collections::{BTreeMap, BTreeSet};
 
 /// The files of a case, in the order of [`write`].
-pub(super) const FILES: [&str; 2] = ["system/blockMeshDict", "constant/triSurface/boundary.obj"];
+pub(super) const FILES: [&str; 3] =
+    ["system/blockMeshDict", "constant/triSurface/boundary.obj", "constant/triSurface/between.obj"];
 
 const HEADER: &str = "\
 FoamFile
@@ -18,15 +19,11 @@ FoamFile
     class dictionary;
     object blockMeshDict;
 }
-geometry
-{
-    boundary
-    {
-        type triSurfaceMesh;
-        // Not by its name alone, as versions look in different folders.
-        file \"$FOAM_CASE/constant/triSurface/boundary.obj\";
-    }
-}";
+";
+
+/// The surfaces that vertices inside faces are put on: the outside, and all faces between blocks.
+const OUTSIDE: &str = "boundary";
+const BETWEEN: &str = "between";
 
 /// Of the edges along each axis of a block, in the order of `hexahedron::EDGES`, the order that blockMesh has them in.
 const EDGE_ORDER: [[usize; 4]; 3] = [[0, 1, 3, 2], [0, 1, 3, 2], [0, 1, 2, 3]];
@@ -35,12 +32,12 @@ const EDGE_ORDER: [[usize; 4]; 3] = [[0, 1, 3, 2], [0, 1, 3, 2], [0, 1, 2, 3]];
 ///
 /// # Errors
 /// [`ErrorKind::Unsupported`] where two edges or faces have the same corners, by which alone blockMesh knows them.
-pub(super) fn write(hexes: &GroupedHexes, blocks: &Blocks) -> Result<[Vec<u8>; 2]> {
+pub(super) fn write(hexes: &GroupedHexes, blocks: &Blocks) -> Result<[Vec<u8>; 3]> {
     check_faces(hexes, blocks)?;
     let corners: BTreeSet<u32> = blocks.blocks.iter().flat_map(corners).collect();
     let corners = corners.into_iter().zip(0..).collect();
     let dictionary = Dictionary { hexes, blocks, corners, edges: edges(hexes, blocks)? };
-    Ok([dictionary.text(), surface(hexes)].map(Text::into_bytes))
+    Ok([dictionary.text(), surface(hexes, blocks, true), surface(hexes, blocks, false)].map(Text::into_bytes))
 }
 
 struct Dictionary<'a> {
@@ -55,14 +52,19 @@ struct Dictionary<'a> {
 impl Dictionary<'_> {
     fn text(&self) -> Text {
         let mut text = Text::default();
-        text.put(HEADER).put("\nvertices\n(\n");
+        let faces = self.faces();
+        text.put(HEADER).put("geometry\n{\n");
+        self.geometry(&mut text, &faces);
+        text.put("}\nvertices\n(\n");
         self.corners.keys().for_each(|&v| text.put('(').point(self.point(v)).put(')').end());
         text.put(");\nblocks\n(\n");
         self.blocks.blocks.iter().for_each(|block| self.block(&mut text, block));
         text.put(");\nedges\n(\n");
         self.edges.values().filter(|edge| edge.len() > 2).for_each(|edge| self.edge(&mut text, edge));
         text.put(");\nfaces\n(\n");
-        self.faces(&mut text);
+        for (block, face, surface) in faces {
+            text.put(format_args!("project ({}) {surface}\n", self.numbers(&corners_of(block, face))));
+        }
         text.put(");\nboundary\n(\n");
         self.boundary(&mut text);
         text.put(");\n");
@@ -105,17 +107,23 @@ impl Dictionary<'_> {
         text.put(")\n");
     }
 
-    /// The faces that are put on the surface. Those without inner vertices are where they belong, and blockMesh would
-    /// divide by their number.
-    fn faces(&self, text: &mut Text) {
-        for (block, face) in self.blocks.blocks.iter().flat_map(|block| (0..FACES.len()).map(move |face| (block, face)))
-        {
-            let has_inner = (0..3).all(|axis| axis == face / 2 || block.size[axis] > 1);
-            if has_inner && matches!(block.faces[face], Beyond::Outside { .. }) {
-                let numbers = self.numbers(&corners_of(block, face));
-                text.put(format_args!("project ({numbers}) boundary\n"));
-            }
+    /// The surfaces that faces are put on.
+    fn geometry(&self, text: &mut Text, faces: &[(&Block, usize, &str)]) {
+        for surface in [OUTSIDE, BETWEEN].iter().filter(|surface| faces.iter().any(|face| face.2 == **surface)) {
+            // Versions look in different folders for what has no path.
+            let file = format!("$FOAM_CASE/constant/triSurface/{surface}.obj");
+            text.put(format_args!("{surface}\n{{\n    type triSurfaceMesh;\n    file \"{file}\";\n}}\n"));
         }
+    }
+
+    /// The faces that are put on a surface: those with vertices inside. blockMesh divides by how many there are.
+    fn faces(&self) -> Vec<(&Block, usize, &'static str)> {
+        let all = once_each(self.blocks).into_iter();
+        let inside = |block: &Block, face: usize| (0..3).all(|axis| axis == face / 2 || block.size[axis] > 1);
+        let surface = |beyond| if matches!(beyond, Beyond::Block(_)) { BETWEEN } else { OUTSIDE };
+        all.filter(|(block, face)| inside(block, *face))
+            .map(|(block, face)| (block, face, surface(block.faces[face])))
+            .collect()
     }
 
     /// The patches with the faces of blocks.
@@ -156,13 +164,26 @@ fn corners_of(block: &Block, face: usize) -> [u32; 4] {
     FACES[face].map(|k| corners(block)[k])
 }
 
-/// The outside as an OBJ file.
-fn surface(hexes: &GroupedHexes) -> Text {
-    let quads: Vec<[u32; 4]> = (0..hexes.boundary().len()).map(|face| hexes.quad(face as u32)).collect();
-    let vertices: BTreeSet<u32> = quads.iter().flatten().copied().collect();
+/// Every face of blocks, those between two as that of the first.
+fn once_each(blocks: &Blocks) -> Vec<(&Block, usize)> {
+    let all = (0..).zip(&blocks.blocks).flat_map(|(b, block)| (0..FACES.len()).map(move |face| (b, block, face)));
+    let is_first = |&(b, block, face): &(u32, &Block, usize)| match block.faces[face] {
+        Beyond::Block(there) => (b, face) < (there.block, there.face.into()),
+        Beyond::Outside { .. } => true,
+    };
+    all.filter(is_first).map(|(_, block, face)| (block, face)).collect()
+}
+
+/// The faces on the outside, or those between blocks, as an OBJ file.
+fn surface(hexes: &GroupedHexes, blocks: &Blocks, outside: bool) -> Text {
+    let all = once_each(blocks).into_iter();
+    let wanted = all.filter(|(block, face)| matches!(block.faces[*face], Beyond::Outside { .. }) == outside);
+    let quads: Vec<[u32; 4]> = wanted.flat_map(|(block, face)| block.quads(face)).collect();
+    let number: BTreeMap<u32, u32> =
+        quads.iter().flatten().copied().collect::<BTreeSet<u32>>().into_iter().zip(0..).collect();
     let mut text = Text::default();
-    vertices.iter().for_each(|&v| text.put("v ").point(&hexes.mesh().points()[v as usize]).end());
-    let number: BTreeMap<u32, u32> = vertices.into_iter().zip(0..).collect();
+    text.put(if outside { "# The outside\n" } else { "# All faces between blocks\n" });
+    number.keys().for_each(|&v| text.put("v ").point(&hexes.mesh().points()[v as usize]).end());
     quads.iter().for_each(|quad| text.put('f').indices(&quad.map(|v| number[&v]), 1).end());
     text
 }

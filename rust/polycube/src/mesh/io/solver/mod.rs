@@ -37,8 +37,8 @@ pub enum SolverFormat {
     /// Plot3D's grid of many blocks, as text: all points of each block. It has no room for names.
     Xyz,
     /// The `system/blockMeshDict` that OpenFOAM's blockMesh makes the blocks of: a patch for each patch, in the group
-    /// of its side, and a cell zone for each block. The vertices of edges are in place, and those of the outside on
-    /// the surface that is in `constant/triSurface`; what is between is interpolated.
+    /// of its side, and a cell zone for each block. The vertices of edges are in place, those of faces on the surfaces
+    /// that are in `constant/triSurface`; what is between is interpolated.
     BlockMesh,
 }
 
@@ -123,8 +123,8 @@ fn bytes(format: SolverFormat, hexes: &GroupedHexes) -> Result<Vec<Vec<u8>>> {
 }
 
 /// Writes a mesh for the solver that the extension of `path` names, whole or not at all. `NAME.foam` and
-/// `NAME.blockmesh` are folders of cases, whose mesh, or `system/blockMeshDict` with its surface, is written; what else
-/// is in them stays.
+/// `NAME.blockmesh` are folders of cases, whose mesh, or `system/blockMeshDict` with its surfaces, is written; what
+/// else is in them stays.
 ///
 /// # Errors
 /// [`ErrorKind::Unsupported`] for another extension; those of [`write_solver_bytes`]; [`ErrorKind::Io`] naming the

@@ -14,7 +14,7 @@ pub(super) fn write(hexes: &GroupedHexes, blocks: &Blocks) -> Vec<u8> {
     }
     let points = hexes.mesh().points();
     for block in &blocks.blocks {
-        for axis in 0..3 {
+        for axis in [0, 1, 2] {
             for row in block.vertices.chunks(block.size[0] as usize + 1) {
                 row.iter().for_each(|&v| {
                     text.float(points[v as usize][axis]).put(' ');

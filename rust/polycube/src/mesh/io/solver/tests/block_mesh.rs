@@ -62,19 +62,32 @@ fn edges_have_all_their_vertices() {
     assert_eq!(sections.collect::<Vec<_>>(), [vec![1; 4], vec![2; 8], vec![2; 12]].concat());
 }
 
-/// Faces with inner vertices are put on the surface of the box, as seen from outside.
+/// The points and quadrilaterals of an OBJ file.
+fn obj(text: &str) -> (Vec<Point>, Vec<[u32; 4]>) {
+    let of = |key: &'static str| text.lines().filter_map(move |line| line.strip_prefix(key));
+    let points = of("v ").map(numbers::<f64>).map(|p| Point::new(p[0], p[1], p[2])).collect();
+    (points, of("f ").map(|line| array(&numbers::<u32>(line), 1)).collect())
+}
+
+/// Faces with vertices inside are put on the outside of the box or on the plane between its blocks.
 #[test]
-fn wide_faces_of_the_outside_lie_on_its_surface() {
+fn wide_faces_lie_on_the_surfaces_written() {
     let mesh = box_mesh();
     let hexes = grouped(&mesh);
-    let [text, surface] = texts(SolverFormat::BlockMesh, &hexes).try_into().unwrap();
+    let [text, outside, between] = texts(SolverFormat::BlockMesh, &hexes).try_into().unwrap();
+    let on = |surface: &str| section(&text, "faces").lines().filter(|line| line.ends_with(surface)).count();
     // All of the second block but the one between, and of the first, one hexahedron thick, that across it.
-    assert_eq!(section(&text, "faces").lines().filter(|line| line.ends_with(") boundary")).count(), 6);
-    let of = |key: &'static str| surface.lines().filter_map(move |line| line.strip_prefix(key));
-    let points: Vec<Point> = of("v ").map(numbers::<f64>).map(|p| Point::new(p[0], p[1], p[2])).collect();
-    assert_eq!(points.len(), QUADS + 2);
-    let quads: Vec<[u32; 4]> = of("f ").map(|line| array(&numbers::<u32>(line), 1)).collect();
-    encloses_the_box(&points, &quads);
+    assert_eq!((on(") boundary"), on(") between")), (6, 1));
+    let (points, quads) = obj(&outside);
+    assert_eq!((points.len(), quads.len()), (QUADS + 2, QUADS));
+    assert!(quads.iter().all(|quad| side(&points, *quad).is_some()));
+    let area = |(points, quads): &(Vec<Point>, Vec<[u32; 4]>)| -> f64 {
+        quads.iter().map(|quad| area_vector(points, *quad).norm()).sum()
+    };
+    assert!((area(&(points, quads)) - QUADS as f64).abs() < 1e-9);
+    let middle = obj(&between);
+    assert!(middle.0.iter().all(|p| (p.x - 1.0).abs() < 1e-6));
+    assert!((area(&middle) - 4.0).abs() < 1e-9);
 }
 
 /// blockMesh tells faces apart by their corners alone.
@@ -86,7 +99,7 @@ fn blocks_with_the_same_corners_are_refused() {
     let mesh = Mesh::new(mesh.points().to_vec(), Cells::Hexahedra(all)).unwrap();
     let outside: BTreeSet<Vec<u32>> = mesh.cells().boundary().unwrap().iter().map(|f| f.vertices().to_vec()).collect();
     let faces = (0..16).flat_map(|cell| (0..6).map(move |face| HexFace { cell, face }));
-    let boundary: Vec<HexFace> = faces.filter(|f| outside.contains(&f.vertices(cells(&mesh)).to_vec())).collect();
+    let boundary: Vec<HexFace> = faces.filter(|f| outside.contains(f.vertices(cells(&mesh)).as_slice())).collect();
     let one = |name| Groups::numbered(name, vec![0; boundary.len()]).unwrap();
     let blocks =
         |split: u32| Groups::numbered("block", (0..16).map(|cell| u32::from(cell >= split)).collect()).unwrap();
