@@ -3,11 +3,12 @@
 For each pair: meshio, gmsh and VTK (through PyVista) read every file with the counts of the report, every volume is
 positive and their sum is the reported one, the scaled Jacobians and the other measures written are those computed here,
 the groups for solvers are there by name and complete, OpenFOAM's checkMesh finds no more than one thing wrong and
-measures the same, CalculiX reproduces a linear field (both where they are installed), and the base complex and the patches, traced here from the definition, are as many as reported.
+measures the same, CalculiX reproduces a linear field (both where they are installed), the block structure written is
+that of the hexahedra, face by face, blockMesh makes as many of it on the same outside, and the base complex and the
+patches, traced here from the definition, are as many as reported.
 """
 
 import json
-import os
 import pathlib
 import re
 import shutil
@@ -20,7 +21,9 @@ import meshio
 import numpy
 import plyfile
 import pyvista
+from block_readers import with_block_mesh, with_blocks
 from patch_test import with_ccx
+from reading import FACES, FOAM, Union, check, gather, sides
 from solver_measures import all_measures, write_control
 
 ROOT = pathlib.Path(__file__).resolve().parent.parent
@@ -28,55 +31,17 @@ POLYCUBE = ROOT / "target/release/polycube"
 COLOURS = ("red", "green", "blue")
 MEASURES = ("edge_ratio", "determinant", "non_orthogonality", "skewness")
 ARRAYS = ("block_id", "label", "scaled_jacobian", *MEASURES)
-# Debian's OpenFOAM finds its own files by this alone.
-FOAM = {**os.environ, "WM_PROJECT_DIR": "/usr/share/openfoam", "FOAM_SIGFPE": "false"}
 # Of each corner of a hexahedron in VTK's order: the ends of its edges, right-handed seen from inside.
 CORNERS = ((1, 3, 4), (2, 0, 5), (3, 1, 6), (0, 2, 7), (7, 5, 0), (4, 6, 1), (5, 7, 2), (6, 4, 3))
-FORMATS = [word for extension in ("vtk", "msh", "inp", "su2", "foam") for word in ("--format", extension)]
+SOLVERS = ("vtk", "msh", "inp", "su2", "foam", "json", "xyz", "blockmesh")
+FORMATS = [word for extension in SOLVERS for word in ("--format", extension)]
 SIDES = {f"{sign}_{axis}" for sign in ("minus", "plus") for axis in "xyz"}
-FACES = ((0, 3, 2, 1), (4, 5, 6, 7), (0, 1, 5, 4), (1, 2, 6, 5), (2, 3, 7, 6), (3, 0, 4, 7))
-
-
-def check(truth, message):
-    if not truth:
-        sys.exit(f"failed: {message}")
 
 
 def polycube(*arguments):
     command = [str(a) for a in (POLYCUBE, *arguments)]
     done = subprocess.run(command, capture_output=True, text=True, timeout=600)
     check(done.returncode in (0, 4), f"{' '.join(command)}\n{done.stdout}{done.stderr}")
-
-
-class Union:
-    """Disjoint sets of the numbers below `count`."""
-
-    def __init__(self, count):
-        self.parent = list(range(count))
-
-    def find(self, a):
-        while self.parent[a] != a:
-            self.parent[a] = self.parent[self.parent[a]]
-            a = self.parent[a]
-        return a
-
-    def join(self, a, b):
-        self.parent[self.find(a)] = self.find(b)
-
-    def sets(self):
-        return len({self.find(a) for a in range(len(self.parent))})
-
-
-def sides(ring):
-    return [frozenset((ring[i - 1], ring[i])) for i in range(len(ring))]
-
-
-def gather(pairs):
-    """Lists of the second values by the first."""
-    lists = {}
-    for key, value in pairs:
-        lists.setdefault(key, []).append(value)
-    return lists
 
 
 def count_blocks(hexes):
@@ -279,6 +244,8 @@ def volume_pair(name, shape, cube, hexes, folder):
         check(set(mesh.cell_data["label"]) <= set(range(-1, 6)), f"{name}: labels in {file}")
         with_meshio(folder / file, "hexahedron", count, ARRAYS)
     with_solvers(name, folder, report)
+    with_blocks(name, folder, report)
+    with_block_mesh(name, folder, report)
     with_vtk(folder / "layout.vtk", blocks, None, ("block_id",))
     found = count_blocks(with_meshio(folder / "hexes.mesh", "hexahedron", count).cells[0].data.tolist())
     check(found == blocks, f"{name}: {found} blocks counted, {blocks} reported")

@@ -119,8 +119,8 @@ def all_measures(points, hexes):
 
 
 def write_control(case):
-    """What checkMesh wants beside the mesh of a case."""
+    """What checkMesh and blockMesh want beside the mesh of a case."""
     system = case / "system"
-    system.mkdir()
+    system.mkdir(exist_ok=True)
     for name, body in (("controlDict", CONTROL), ("fvSchemes", SCHEMES), ("fvSolution", "")):
         (system / name).write_text(HEADER.format("dictionary", "system", name) + body)

@@ -54,8 +54,8 @@ TEST_CASE("remesh writes what the command writes") {
     polycube::write_mesh(folder / "p.off", polycube);
     polycube::write_mesh(folder / "s.off", shape);
     run("remesh " + (folder / "s.off") + " --polycube " + (folder / "p.off") +
-        " --hexes 1500 --max-hausdorff 100 --format msh --format inp --format su2 --format foam -q -o " +
-        (folder / "out"));
+        " --hexes 1500 --max-hausdorff 100 --format msh --format inp --format su2 --format foam" +
+        " --format json --format xyz --format blockmesh -q -o " + (folder / "out"));
     polycube::RemeshOptions options = coarse();
     options.simplify = {};
     options.max_hausdorff = 1.0;
@@ -66,15 +66,20 @@ TEST_CASE("remesh writes what the command writes") {
     polycube::write_mesh(folder / "quads.obj", result.quads.mesh);
     polycube::write_mesh(folder / "layout.obj", result.layout.patches);
     polycube::write_mesh(folder / "layout.vtk", result.layout.blocks, result.layout.block_fields());
-    for (const char* file : {"hexes.msh", "hexes.inp", "hexes.su2", "case.foam"}) {
+    for (const char* file : {"hexes.msh", "hexes.inp", "hexes.su2", "case.foam", "blocks.json", "hexes.xyz",
+                             "case.blockmesh"}) {
         polycube::write_solver(folder / file, *result.hexes);
     }
     for (const char* file : {"hexes.vtu", "hexes.mesh", "quads.obj", "layout.obj", "layout.vtk", "hexes.msh",
-                             "hexes.inp", "hexes.su2"}) {
+                             "hexes.inp", "hexes.su2", "blocks.json", "hexes.xyz"}) {
         same(folder / file, folder / (std::string("out/") + file));
     }
     for (const char* file : {"points", "faces", "owner", "neighbour", "boundary", "cellZones"}) {
         const std::string within = std::string("/constant/polyMesh/") + file;
         same(folder / ("case.foam" + within), folder / ("out/foam" + within));
+    }
+    for (const char* file : {"/system/blockMeshDict", "/constant/triSurface/boundary.obj",
+                             "/constant/triSurface/between.obj"}) {
+        same(folder / (std::string("case.blockmesh") + file), folder / (std::string("out/blockmesh") + file));
     }
 }

@@ -154,9 +154,11 @@ Remeshed remesh(const Mesh& shape, const RemeshOptions& options = {}, const Cont
 
 /// Writes hexahedra for the solver that the extension names, whole or not at all, with blocks and boundary by name
 /// (block_0 ...; facet_0 ..., and minus_x to plus_z for all facets that look one way on the polycube): msh of Gmsh 4.1,
-/// inp of Abaqus and CalculiX, su2 of SU2 (boundary only), foam for the folder of an OpenFOAM case.
+/// inp of Abaqus and CalculiX, su2 of SU2 (boundary only), foam for the folder of an OpenFOAM case; or the block
+/// structure itself: json, xyz of Plot3D (no names), blockmesh for the folder of a case with a blockMeshDict.
 ///
-/// @throws Error io, unsupported (another extension), mismatch (the boundary is not that of the mesh).
+/// @throws Error io, unsupported (another extension, or blocks that blockMesh cannot tell apart), mismatch (the
+/// boundary is not that of the mesh, or blocks are no boxes).
 void write_solver(const std::string& path, const HexMesh& hexes);
 
 }  // namespace polycube

@@ -107,7 +107,9 @@ impl PyHexes {
     /// Writes the mesh whole or not at all. The extension tells the format: one of `Mesh.write`, which gets `block_id`,
     /// `label`, `scaled_jacobian` and the other arrays where it holds them, or one for solvers, which gets blocks and
     /// boundary by name (block_0 ...; facet_0 ..., and minus_x to plus_z for all facets that look one way on the
-    /// polycube): msh of Gmsh 4.1, inp of Abaqus and CalculiX, su2 of SU2, foam for the folder of an OpenFOAM case.
+    /// polycube): msh of Gmsh 4.1, inp of Abaqus and CalculiX, su2 of SU2, foam for the folder of an OpenFOAM case;
+    /// or the block structure itself: json, xyz of Plot3D (no names), blockmesh for the folder of a case with a
+    /// blockMeshDict of OpenFOAM.
     fn write(&self, py: Python<'_>, path: PathBuf) -> PyResult<()> {
         let HexParts { mesh, block_id, boundary, fields, .. } = &*self.0;
         let extension = path.extension().unwrap_or_default().to_string_lossy();

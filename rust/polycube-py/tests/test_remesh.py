@@ -96,7 +96,7 @@ def test_the_same_bytes_as_the_command(tmp_path, command, pair, meshes):
     files = tmp_path / "shape.mesh", tmp_path / "polycube.mesh"
     for mesh, path in zip(pair, files):
         mesh.write(path)
-    solvers = ["msh", "inp", "su2", "foam"]
+    solvers = ["msh", "inp", "su2", "foam", "json", "xyz", "blockmesh"]
     formats = [word for name in solvers for word in ("--format", name)]
     size = ("--hexes", 1500, "--max-hausdorff", 5)
     command("remesh", files[0], "--polycube", files[1], "-o", tmp_path / "out", *size, *formats)
@@ -109,8 +109,12 @@ def test_the_same_bytes_as_the_command(tmp_path, command, pair, meshes):
     meshes.simplified.polycube.write(tmp_path / "own.mesh")
     for extension in solvers:
         meshes.hexes.write(tmp_path / f"hexes.{extension}")
-    names = ["hexes.vtu", "quads.obj", "layout.obj", "layout.vtk", "hexes.msh", "hexes.inp", "hexes.su2"]
-    for own, theirs in [*zip(names, names), ("own.mesh", "polycube.mesh")]:
+    names = ["hexes.vtu", "quads.obj", "layout.obj", "layout.vtk", "hexes.msh", "hexes.inp", "hexes.su2", "hexes.xyz"]
+    surfaces = [f"constant/triSurface/{name}.obj" for name in ("boundary", "between")]
+    case = ["system/blockMeshDict", *surfaces]
+    other = [("own.mesh", "polycube.mesh"), ("hexes.json", "blocks.json")]
+    other += [(f"hexes.blockmesh/{file}", f"blockmesh/{file}") for file in case]
+    for own, theirs in [*zip(names, names), *other]:
         assert (tmp_path / own).read_bytes() == (tmp_path / "out" / theirs).read_bytes(), theirs
     case = tmp_path / "hexes.foam" / "constant" / "polyMesh"
     for own in ["points", "faces", "owner", "neighbour", "boundary", "cellZones"]:

@@ -76,8 +76,9 @@ fn no_mesh_of_an_earlier_run_stays() {
 fn formats_for_solvers_may_be_several_and_go_with_the_next_run() {
     let sandbox = sandbox(CellKind::Triangles, "obj");
     let line = "remesh shape.obj --polycube cube.obj -o out --quiet --hexes 400 --max-hausdorff 50";
-    sandbox.ok(&format!("{line} --format msh --format foam --format vtk --format MSH --format su2 --format inp"));
-    let more = ["foam", "hexes.inp", "hexes.msh", "hexes.su2", "hexes.vtk"];
+    let formats = "--format msh --format foam --format vtk --format MSH --format su2 --format inp";
+    sandbox.ok(&format!("{line} {formats} --format json --format xyz --format blockmesh"));
+    let more = ["blockmesh", "blocks.json", "foam", "hexes.inp", "hexes.msh", "hexes.su2", "hexes.vtk", "hexes.xyz"];
     let mut all: Vec<&str> = FILES.map(|file| if file == "polycube.mesh" { "polycube.obj" } else { file }).to_vec();
     let without = all.clone();
     all.extend(more);
@@ -85,6 +86,8 @@ fn formats_for_solvers_may_be_several_and_go_with_the_next_run() {
     assert_eq!(sandbox.names("out"), all);
     let files = ["boundary", "cellZones", "faces", "neighbour", "owner", "points"];
     assert_eq!(sandbox.names("out/foam/constant/polyMesh"), files);
+    assert_eq!(sandbox.names("out/blockmesh/system"), ["blockMeshDict"]);
+    assert_eq!(sandbox.names("out/blockmesh/constant/triSurface"), ["between.obj", "boundary.obj"]);
     sandbox.ok(line);
     assert_eq!(sandbox.names("out"), without);
 }
@@ -93,10 +96,10 @@ fn formats_for_solvers_may_be_several_and_go_with_the_next_run() {
 fn solvers_want_hexahedra() {
     let sandbox = sandbox(CellKind::Triangles, "obj");
     let line = "remesh shape.obj --polycube cube.obj -o no";
-    for format in ["msh", "inp", "su2", "foam"] {
+    for format in ["msh", "inp", "su2", "foam", "json", "xyz", "blockmesh"] {
         sandbox.fails(&format!("{line} --surface-only --format {format}"), 2, &[format, "--surface-only"]);
     }
-    sandbox.fails(&format!("{line} --format cgns"), 2, &["cgns", "msh, inp, su2, foam"]);
+    sandbox.fails(&format!("{line} --format cgns"), 2, &["cgns", "msh, inp, su2, foam, json, xyz, blockmesh"]);
     assert!(!sandbox.path("no").exists());
 }
 

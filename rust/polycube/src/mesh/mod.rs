@@ -3,6 +3,7 @@
 //! Reading is safe on any input: a malformed file gives an [`Error`] that says where it is wrong,
 //! and never a panic, an endless loop, or memory out of proportion to the size of the file.
 
+mod blocks;
 mod checked;
 mod compact;
 mod groups;
@@ -11,6 +12,7 @@ mod io;
 mod simplices;
 mod stars;
 
+pub use blocks::{BLOCK_FACES, Beyond, Block, Blocks, Neighbour};
 pub use checked::Mesh;
 pub use groups::{GroupedHexes, Groups};
 pub use hexahedron::HexFace;

@@ -108,11 +108,12 @@ pub fn files<'a>(result: &'a Remeshed, formats: &Formats) -> Vec<File<'a>> {
 /// The files for solvers with their names, which may begin with the names of folders.
 ///
 /// # Errors
-/// Those of [`Hexes::grouped`](polycube::remesh::Hexes::grouped).
+/// Those of [`Hexes::grouped`](polycube::remesh::Hexes::grouped) and [`write_solver_bytes`].
 pub fn solver_files(result: &Remeshed, formats: &Formats) -> Result<Vec<(String, Vec<u8>)>> {
     let Some(hexes) = result.hexes.as_ref().filter(|_| !formats.solvers.is_empty()) else { return Ok(Vec::new()) };
     let grouped = hexes.grouped()?;
-    Ok(formats.solvers.iter().flat_map(|&format| write_solver_bytes(format, HEXES, &grouped)).collect())
+    let files = formats.solvers.iter().map(|&format| write_solver_bytes(format, HEXES, &grouped));
+    Ok(files.collect::<polycube::Result<Vec<_>>>()?.concat())
 }
 
 /// The names of all files for solvers that there may be.

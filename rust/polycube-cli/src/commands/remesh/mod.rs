@@ -53,6 +53,10 @@ facets that look one way on the polycube):
   su2    hexes.su2, of SU2: markers minus_x to plus_z, no blocks
   foam   foam/constant/polyMesh, of OpenFOAM: a patch for each facet, in the group of its direction;
          cell zones
+The block structure itself, for solvers that want grids:
+  json       blocks.json: points, grids of vertices, edge classes, neighbours, names; see the guide
+  xyz        hexes.xyz, of Plot3D: many blocks, text, no names
+  blockmesh  blockmesh/system/blockMeshDict, of OpenFOAM's blockMesh: names as in foam
 --hexes N with --surface-only: the lattice is as fine as for N hexahedra, and the quadrilaterals
 are those of its surface, not N.
 Exit code 4: the meshes are written, but hexahedra are inverted (scaled_jacobian of 0 or less in
@@ -112,7 +116,8 @@ pub struct Args {
     #[arg(long, value_name = "PERCENT", value_parser = percent, default_value_t = 0.5)]
     pub max_hausdorff: f64,
 
-    /// Write the mesh in this format, too (may be repeated): obj, off, ply, mesh, vtk, vtu; msh, inp, su2 or foam
+    /// Write the mesh in this format, too (may be repeated): obj, off, ply, mesh, vtk, vtu; msh, inp, su2, foam;
+    /// json, xyz or blockmesh
     #[arg(long, value_name = "EXT", value_parser = output_format)]
     pub format: Vec<OutputFormat>,
 

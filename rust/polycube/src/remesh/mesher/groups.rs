@@ -31,7 +31,7 @@ impl Hexes {
 /// let options = RemeshOptions { size: Some(Size::Hexes(400)), ..RemeshOptions::default() };
 /// let hexes = remesh(&input, &options, &Context::default())?.hexes.expect("not of the surface alone");
 ///
-/// let files = write_solver_bytes(SolverFormat::Msh, "hexes", &hexes.grouped()?);
+/// let files = write_solver_bytes(SolverFormat::Msh, "hexes", &hexes.grouped()?)?;
 /// assert_eq!(files[0].0, "hexes.msh");
 /// # Ok::<(), polycube::Error>(())
 /// ```

@@ -4,11 +4,15 @@ use crate::mesh::hexahedron::FACES;
 use crate::mesh::io::text::Text;
 use crate::mesh::{GroupedHexes, HexFace};
 
-/// Where the mesh lies in a case.
-pub(super) const FOLDER: &str = "constant/polyMesh";
-
-/// The files of a mesh, in the order of [`write`].
-pub(super) const FILES: [&str; 6] = ["points", "faces", "owner", "neighbour", "boundary", "cellZones"];
+/// The files of a mesh in a case, in the order of [`write`].
+pub(super) const FILES: [&str; 6] = [
+    "constant/polyMesh/points",
+    "constant/polyMesh/faces",
+    "constant/polyMesh/owner",
+    "constant/polyMesh/neighbour",
+    "constant/polyMesh/boundary",
+    "constant/polyMesh/cellZones",
+];
 
 /// The texts of the files.
 pub(super) fn write(hexes: &GroupedHexes) -> [Vec<u8>; 6] {

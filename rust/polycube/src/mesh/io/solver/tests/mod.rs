@@ -1,8 +1,11 @@
 //! Every file is read here from its text alone, as its format is described, and compared with what went in.
 
+mod block_mesh;
 mod foam;
 mod inp;
+mod json;
 mod msh;
+mod plot3d;
 mod su2;
 
 use super::*;
@@ -56,8 +59,8 @@ fn grouped(mesh: &Mesh) -> GroupedHexes<'_> {
 }
 
 fn texts(format: SolverFormat, hexes: &GroupedHexes) -> Vec<String> {
-    let files = write_solver_bytes(format, "box", hexes);
-    assert_eq!(files, write_solver_bytes(format, "box", hexes));
+    let files = write_solver_bytes(format, "box", hexes).unwrap();
+    assert_eq!(files, write_solver_bytes(format, "box", hexes).unwrap());
     files.into_iter().map(|(_, bytes)| String::from_utf8(bytes).unwrap()).collect()
 }
 
@@ -94,8 +97,8 @@ fn files_are_written_whole_or_not_at_all() {
     for format in SolverFormat::ALL {
         let path = folder.path().join(format!("box.{format}"));
         write_solver(&path, &hexes).unwrap();
-        for (name, bytes) in write_solver_bytes(format, "box", &hexes) {
-            let within = name.strip_prefix("foam/").map_or_else(|| path.clone(), |rest| path.join(rest));
+        for (name, bytes) in write_solver_bytes(format, "box", &hexes).unwrap() {
+            let within = name.split_once('/').map_or_else(|| path.clone(), |(_, rest)| path.join(rest));
             assert!(fs::read(&within).unwrap() == bytes, "{}", within.display());
         }
     }
@@ -105,7 +108,7 @@ fn files_are_written_whole_or_not_at_all() {
     assert!(own.exists());
     assert_eq!(fs::read_dir(case.join("constant/polyMesh")).unwrap().count(), 6);
     fs::write(folder.path().join("file"), "").unwrap();
-    for name in ["file/case.foam", "file/box.msh"] {
+    for name in ["file/case.foam", "file/case.blockmesh", "file/box.msh", "file/box.json"] {
         assert_eq!(write_solver(&folder.path().join(name), &hexes).unwrap_err().kind, ErrorKind::Io, "{name}");
     }
     assert_eq!(write_solver(&folder.path().join("box.obj"), &hexes).unwrap_err().kind, ErrorKind::Unsupported);
@@ -115,12 +118,35 @@ fn files_are_written_whole_or_not_at_all() {
 fn files_have_names_and_formats_are_read_back() {
     for format in SolverFormat::ALL {
         assert_eq!(format.to_string().to_uppercase().parse(), Ok(format));
-        let written: Vec<String> =
-            write_solver_bytes(format, "box", &grouped(&box_mesh())).into_iter().map(|(name, _)| name).collect();
+        let written: Vec<String> = write_solver_bytes(format, "box", &grouped(&box_mesh()))
+            .unwrap()
+            .into_iter()
+            .map(|(name, _)| name)
+            .collect();
         assert_eq!(written, format.files("box"));
     }
     assert_eq!(SolverFormat::Inp.files("box"), ["box.inp"]);
+    assert_eq!(SolverFormat::Xyz.files("box"), ["box.xyz"]);
+    assert_eq!(SolverFormat::Json.files("box"), ["blocks.json"]);
     assert_eq!(SolverFormat::Foam.files("box")[0], "foam/constant/polyMesh/points");
+    assert_eq!(SolverFormat::BlockMesh.files("box")[0], "blockmesh/system/blockMeshDict");
     let error = "cgns".parse::<SolverFormat>().unwrap_err();
     assert!(error.kind == ErrorKind::Unsupported && error.remedy.contains("msh"), "{error}");
+}
+
+/// What has no block structure is not written, and what is there stays.
+#[test]
+fn blocks_that_are_no_boxes_are_not_written() {
+    let (folder, mesh) = (tempfile::tempdir().unwrap(), box_mesh());
+    let hexes = grouped(&mesh);
+    let one = |name, count| Groups::numbered(name, vec![0; count]).unwrap();
+    let corner = Groups::numbered("block", (0..12).map(|cell| u32::from(cell > 0)).collect()).unwrap();
+    let (patches, sides) = (one("patch", QUADS), one("side", QUADS));
+    let broken = GroupedHexes::new(&mesh, corner, hexes.boundary().to_vec(), patches, sides).unwrap();
+    for format in [SolverFormat::Json, SolverFormat::Xyz, SolverFormat::BlockMesh] {
+        let path = folder.path().join(format!("box.{format}"));
+        assert_eq!(write_solver(&path, &broken).unwrap_err().kind, ErrorKind::Mismatch);
+        assert!(!path.exists());
+        assert_eq!(write_solver_bytes(format, "box", &broken).unwrap_err().kind, ErrorKind::Mismatch);
+    }
 }
