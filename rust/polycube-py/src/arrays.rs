@@ -15,6 +15,16 @@ pub fn flat(points: &[Point]) -> &[f64] {
     bytemuck::cast_slice(points)
 }
 
+/// Points as rows of three numbers, which can be pickled.
+pub fn rows(points: &[Point]) -> Vec<[f64; 3]> {
+    points.iter().map(|&p| p.into()).collect()
+}
+
+/// Rows of three numbers as points.
+pub fn points(rows: Vec<[f64; 3]>) -> Vec<Point> {
+    rows.into_iter().map(Point::from).collect()
+}
+
 /// A read-only one-dimensional array over numbers that `owner` holds, without copying them.
 pub fn vector<'py, C, T>(
     owner: &Bound<'py, C>,

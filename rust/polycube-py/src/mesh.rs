@@ -6,7 +6,7 @@ use polycube::generate::{self, Example};
 use polycube::mesh::{self, CellField, CellKind, Cells, Point};
 use polycube::{Error, ErrorKind, Place};
 use pyo3::prelude::*;
-use pyo3::types::PyDict;
+use pyo3::types::{PyDict, PyTuple};
 use std::path::PathBuf;
 use std::sync::Arc;
 
@@ -26,7 +26,7 @@ use std::sync::Arc;
 /// >>> import polycube
 /// >>> polycube.Mesh([[0, 0, 0], [1, 0, 0], [0, 1, 0], [0, 0, 1]], [[0, 1, 2, 3]], "tetrahedra")
 /// Mesh(4 points, 1 tetrahedra)
-#[pyclass(frozen, module = "polycube", name = "Mesh")]
+#[pyclass(frozen, from_py_object, module = "polycube", name = "Mesh")]
 #[derive(Clone)]
 pub struct PyMesh(pub Arc<mesh::Mesh>);
 
@@ -111,12 +111,23 @@ impl PyMesh {
         self.save(py, &path, &fields)
     }
 
+    /// A mesh is pickled and copied by its arrays, which every version reads.
+    fn __reduce__<'py>(slf: &Bound<'py, Self>) -> PyResult<(Bound<'py, PyAny>, Bound<'py, PyTuple>)> {
+        let arguments = (Self::points(slf)?, Self::cells(slf)?, slf.get().kind()).into_pyobject(slf.py())?;
+        Ok((slf.get_type().into_any(), arguments))
+    }
+
     fn __repr__(&self) -> String {
         format!("Mesh({} points, {} {})", self.0.points().len(), self.0.cells().len(), self.kind())
     }
 }
 
 impl PyMesh {
+    /// The library's mesh, copied where another still holds it.
+    pub fn into_inner(self) -> mesh::Mesh {
+        Arc::unwrap_or_clone(self.0)
+    }
+
     /// Writes the mesh with fields, letting other Python threads run.
     pub fn save(&self, py: Python<'_>, path: &std::path::Path, fields: &[CellField]) -> PyResult<()> {
         py.detach(|| mesh::write(path, &self.0, fields)).map_err(|e| errors::about(py, &e, Some(&self.0)))

@@ -1,16 +1,19 @@
 //! Simplifying a polycube, and what comes of it.
 
 use crate::arrays::vector;
+use crate::errors;
 use crate::mesh::PyMesh;
 use crate::options::Keywords;
+use crate::pickle::{self, Reduced};
 use crate::report::to_dict;
 use crate::structure::{PyCounts, PyStructure};
 use crate::work::{Failure, Listener};
+use bitcode::{Decode, Encode};
 use polycube::Context;
 use polycube::mesh::Mesh;
 use polycube::simplify::{Input, Simplified, SimplifyOptions, simplify as run};
 use pyo3::prelude::*;
-use pyo3::types::PyDict;
+use pyo3::types::{PyDict, PyTuple};
 use std::sync::{Arc, OnceLock};
 
 /// What a simplification starts from.
@@ -52,6 +55,7 @@ impl Source {
 
 /// A trade-off between few blocks and little displacement, met by the search.
 #[pyclass(frozen, module = "polycube", name = "TradeOff", get_all)]
+#[derive(Encode, Decode)]
 pub struct PyTradeOff {
     /// What the objective counts.
     count: usize,
@@ -59,15 +63,26 @@ pub struct PyTradeOff {
     displacement: f64,
 }
 
+impl PyTradeOff {
+    /// What was pickled.
+    pub fn restore(py: Python<'_>, rest: &[u8]) -> PyResult<Self> {
+        pickle::decode(py, rest)
+    }
+}
+
 #[pymethods]
 impl PyTradeOff {
+    fn __reduce__<'py>(&self, py: Python<'py>) -> PyResult<Reduced<'py>> {
+        pickle::reduce(py, "TradeOff", PyTuple::empty(py), self)
+    }
+
     fn __repr__(&self) -> String {
         format!("TradeOff(count={}, displacement={})", self.count, self.displacement)
     }
 }
 
 /// A simplified polycube.
-#[pyclass(frozen, module = "polycube", name = "Simplified")]
+#[pyclass(frozen, from_py_object, module = "polycube", name = "Simplified")]
 #[derive(Clone)]
 pub struct PySimplified(Arc<Parts>);
 
@@ -85,6 +100,17 @@ impl PySimplified {
         let labels = result.input.labels().map(|l| l.index() as i8).collect();
         let polycube = result.polycube.take().map(PyMesh::from);
         Self(Arc::new(Parts { source, result, polycube, labels, structure: OnceLock::new() }))
+    }
+
+    /// What was pickled. The structure of the input is read again, in linear time.
+    pub fn restore(parts: &Bound<'_, PyTuple>, rest: &[u8]) -> PyResult<Self> {
+        let py = parts.py();
+        let (input, shape, mesh): (PyMesh, Option<PyMesh>, Option<PyMesh>) = parts.extract()?;
+        let (labels, state) = pickle::decode::<(Option<Vec<i8>>, Vec<u8>)>(py, rest)?;
+        let source = Source { polycube: input.0, shape: shape.map(|shape| shape.0), labels };
+        let again = || Simplified::from_state(&source.input(), mesh.map(PyMesh::into_inner), &state);
+        let result = py.detach(again).map_err(|e| errors::raise(py, &e, None))?;
+        Ok(Self::new(result, source))
     }
 
     /// Another result from the same source, made while `listener` listens.
@@ -214,6 +240,12 @@ impl PySimplified {
         let rescaled =
             move |result: &Simplified, input: &Input, context: &Context| result.rescaled(input, scale, context);
         self.again(py, &Listener { progress, cancel }, rescaled)
+    }
+
+    fn __reduce__<'py>(&self, py: Python<'py>) -> PyResult<Reduced<'py>> {
+        let Parts { source, result, polycube, .. } = &*self.0;
+        let parts = (PyMesh(source.polycube.clone()), source.shape.clone().map(PyMesh), polycube.clone());
+        pickle::reduce(py, "Simplified", parts, &(source.labels.clone(), result.state()))
     }
 
     fn __repr__(&self) -> String {
