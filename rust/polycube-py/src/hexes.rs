@@ -130,6 +130,11 @@ impl PyHexes {
         py.detach(write).map_err(|e| errors::about(py, &e, Some(&mesh.0)))
     }
 
+    /// The number of hexahedra.
+    fn __len__(&self) -> usize {
+        self.0.label.len()
+    }
+
     fn __reduce__<'py>(&self, py: Python<'py>) -> PyResult<Reduced<'py>> {
         let HexParts { mesh, polycube, label, block_id, boundary, .. } = &*self.0;
         let rest = (arrays::rows(polycube), label.clone(), block_id.clone(), boundary.clone());

@@ -14,7 +14,7 @@ use std::sync::Arc;
 ///
 /// Args:
 ///     points: (n, 3) float64. Vertex positions. Other numbers are converted.
-///     cells: (m, k) integers from 0 to n - 1. Vertices of each cell; surfaces counter-clockwise seen from outside,
+///     cells: (m, k) integers from 0 to n - 1, also as floats without a fraction. Vertices of each cell; surfaces counter-clockwise seen from outside,
 ///         volumes in VTK's order.
 ///     kind: "triangles", "quads", "tetrahedra" or "hexahedra". Needed for k = 4 only.
 ///
@@ -80,6 +80,11 @@ impl PyMesh {
         self.0.cells().is_volume()
     }
 
+    /// The number of cells.
+    fn __len__(&self) -> usize {
+        self.0.cells().len()
+    }
+
     /// The boundary faces, outward: (f, 3 or 4) uint32. Labels, facets and locks are numbered like them. The boundary
     /// of a surface is its cells.
     ///
@@ -136,7 +141,8 @@ impl PyMesh {
 
 fn field(name: &Bound<'_, PyAny>, values: &Bound<'_, PyAny>) -> PyResult<CellField> {
     let name: String = name.extract()?;
-    if let Ok((whole, _)) = arrays::whole("fields").read::<i64>(values) {
+    if arrays::is_of_kind(values, b"iu")? {
+        let (whole, _) = arrays::whole("fields").read::<i64>(values)?;
         let narrow = whole.iter().map(|&x| i32::try_from(x)).collect::<Result<_, _>>();
         if let Ok(narrow) = narrow {
             return Ok(CellField::integer(name, narrow));

@@ -117,6 +117,11 @@ impl PyQuads {
         self.0.mesh.save(py, &path, &self.0.fields)
     }
 
+    /// The number of quadrilaterals.
+    fn __len__(&self) -> usize {
+        self.0.label.len()
+    }
+
     fn __reduce__<'py>(&self, py: Python<'py>) -> PyResult<Reduced<'py>> {
         let QuadParts { mesh, polycube, label, patch_id, block_id, .. } = &*self.0;
         let rest: (Vec<[f64; 3]>, _, _, _) =
