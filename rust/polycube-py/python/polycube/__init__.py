@@ -46,6 +46,7 @@ from ._native import (
     simplify,
     structure,
 )
+from .convert import from_meshio, from_pyvista, from_trimesh, to_meshio, to_pyvista, to_trimesh
 from .errors import (
     Cancelled,
     FileError,
@@ -90,6 +91,9 @@ __all__ = [
     "check",
     "check_shape",
     "example",
+    "from_meshio",
+    "from_pyvista",
+    "from_trimesh",
     "make",
     "read",
     "read_labels",
@@ -97,4 +101,7 @@ __all__ = [
     "remesh",
     "simplify",
     "structure",
+    "to_meshio",
+    "to_pyvista",
+    "to_trimesh",
 ]
