@@ -46,6 +46,7 @@ from ._native import (
     simplify,
     structure,
 )
+from .batch import batch
 from .convert import from_meshio, from_pyvista, from_trimesh, to_meshio, to_pyvista, to_trimesh
 from .errors import (
     Cancelled,
@@ -88,6 +89,7 @@ __all__ = [
     "Unsupported",
     "Violation",
     "__version__",
+    "batch",
     "check",
     "check_shape",
     "example",
