@@ -14,8 +14,8 @@ use std::sync::Arc;
 ///
 /// Args:
 ///     points: (n, 3) float64. Vertex positions. Other numbers are converted.
-///     cells: (m, k) integers from 0 to n - 1, also as floats without a fraction. Vertices of each cell; surfaces counter-clockwise seen from outside,
-///         volumes in VTK's order.
+///     cells: (m, k) integers from 0 to n - 1, also as floats without a fraction. Vertices of each cell; surfaces
+///         counter-clockwise seen from outside, volumes in VTK's order.
 ///     kind: "triangles", "quads", "tetrahedra" or "hexahedra". Needed for k = 4 only.
 ///
 /// Raises:

@@ -283,7 +283,8 @@ impl PySimplified {
 ///         none shall.
 ///     max_distortion: only with "best", the largest mean angle distortion, 1 or more, of the map from the shape to
 ///         the result.
-///     locked_faces: with every strategy, boundary faces whose facets must not move: their numbers, or a mask, (f,) bool.
+///     locked_faces: with every strategy, boundary faces whose facets must not move: their numbers, or a mask, (f,)
+///         bool.
 ///     guides: with every strategy, what else to keep: `{"fixed": facets, "together": [facets], "apart": [[facet,
 ///         facet]], "symmetry": [{"axis": 0, "at": 0.0}], "fixed_faces": faces, "fixed_labels": labels}`, by the
 ///         numbers of `structure(polycube)`.

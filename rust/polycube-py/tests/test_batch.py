@@ -78,13 +78,23 @@ def test_it_goes_on_where_it_was(shapes, made):
     assert [now[i] > kept[i] for i in kept] == [True, True, False]
 
 
-def test_other_options_are_other_meshes_and_what_failed_is_tried_again(tmp_path):
+def test_what_failed_is_tried_again_where_that_is_wanted(tmp_path):
+    path, row = tmp_path / "open.obj", tmp_path / "out" / "open" / "row.json"
+    polycube.Mesh(CUBE_POINTS, CUBE_QUADS[1:], "quads").write(path)
+    first = polycube.batch([path], tmp_path / "out", **OPTIONS)
+    at = row.stat().st_mtime_ns
+    assert polycube.batch([path], tmp_path / "out", **OPTIONS) == first
+    assert row.stat().st_mtime_ns == at
+    assert polycube.batch([path], tmp_path / "out", retry=True, **OPTIONS) == first
+    assert row.stat().st_mtime_ns > at
+
+
+def test_other_files_and_options_are_other_meshes(tmp_path):
     path = tmp_path / "late.obj"
     first = polycube.batch([path], tmp_path / "out", **OPTIONS)
     assert (first[0]["status"], first[0]["kind"]) == ("failed", "io")
     box(tmp_path, 0).rename(path)
-    assert polycube.batch([path], tmp_path / "out", **OPTIONS) == first
-    done = polycube.batch([path], tmp_path / "out", retry=True, **OPTIONS)
+    done = polycube.batch([path], tmp_path / "out", **OPTIONS)
     assert done[0]["status"] == "done"
     finer = polycube.batch([path], tmp_path / "out", edge_length=0.25, max_hausdorff=5)
     assert finer[0]["hexes"] > done[0]["hexes"]

@@ -51,6 +51,11 @@ _Solver = Literal["exact", "linear"]
 _Progress = Callable[[str, float], object]
 _Fields = dict[str, npt.ArrayLike]
 _T_co = TypeVar("_T_co", covariant=True)
+# What is there unless surface_only=True or strategy="naive" left it out, and None then: for type checkers `X | Any`, as
+# in the standard library's stubs, so that nobody must ask for what is there.
+_Hexes = Hexes | Any
+_Polycube = Mesh | Any
+_Counts = Counts | Any
 
 class _Flag(Protocol):
     """Anything with `is_set`, such as `threading.Event`."""
@@ -161,7 +166,7 @@ class Structure:
 @final
 class Simplified:
     @property
-    def polycube(self) -> Mesh | None: ...
+    def polycube(self) -> _Polycube: ...
     @property
     def valid(self) -> bool: ...
     @property
@@ -175,7 +180,7 @@ class Simplified:
     @property
     def counts_before(self) -> Counts: ...
     @property
-    def counts_after(self) -> Counts | None: ...
+    def counts_after(self) -> _Counts: ...
     @property
     def front(self) -> list[TradeOff]: ...
     @property
@@ -279,7 +284,7 @@ class Remeshed:
     @property
     def quads(self) -> Quads: ...
     @property
-    def hexes(self) -> Hexes | None: ...
+    def hexes(self) -> _Hexes: ...
     @property
     def layout(self) -> Layout: ...
     @property

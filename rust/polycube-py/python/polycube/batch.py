@@ -7,6 +7,7 @@ share a folder can share the work.
 from __future__ import annotations
 
 import csv
+import hashlib
 import importlib
 import json
 import os
@@ -44,9 +45,9 @@ COLUMNS: dict[str, type] = {
     "seconds": float,
     "version": str,
     "options": str,
+    "sha256": str,
 }
-"""The columns of the table and what they hold. `status` is "done", "failed" or "killed"; `kind` and `message` say why;
-blocks are padded ones before and after simplification, `seconds` those of the meshing."""
+"""The columns of the table and what they hold."""
 
 Row = dict[str, Any]
 """What became of a shape: a value for each of `COLUMNS`, None where there is none."""
@@ -94,8 +95,13 @@ def batch(
     """Meshes many shapes, each in a process of its own, and returns a row for each, in the order of `paths`.
 
     What fails or is killed gets a row, too, and nothing else ends with it. Of each shape `NAME.EXT` the folder `NAME` in
-    `folder` gets `hexes.vtu`, `quads.obj` and `row.json`. A shape whose row is there, of the same version and options,
-    is not meshed again: call `batch` again to go on after a stop.
+    `folder` gets `hexes.vtu`, `quads.obj` and `row.json`. A shape whose row is there, of the same file, version and
+    options, is not meshed again: call `batch` again to go on after a stop.
+
+    A row has `shape` and `polycube` (the files), `status` ("done", "failed" or "killed"), `kind` (of the error, or
+    "time", "memory" or "process" where killed), `message` (what went wrong, or notes), `good` (as in `Remeshed`),
+    `quads`, `hexes`, `blocks_before` and `blocks_after` (padded), `min_sj`, `avg_sj`, `inverted`,
+    `hausdorff_percent`, `seconds`, and what it holds for: `version`, `options` (JSON) and `sha256` (of the files).
 
     Args:
         paths: files of shapes as `remesh` takes them; or pairs, SHAPE FIRST, then its polycube.
@@ -173,8 +179,17 @@ def _kept(job: Job, retry: bool) -> Row | None:
 
 def _said(job: Job) -> Row:
     """What a row says of its job."""
-    options = json.dumps(job["options"], sort_keys=True)
-    return {"shape": job["shape"], "polycube": job["polycube"], "version": __version__, "options": options}
+    options, files = json.dumps(job["options"], sort_keys=True), [job["shape"], job["polycube"]]
+    return dict(zip(("shape", "polycube"), files)) | {
+        "version": __version__,
+        "options": options,
+        "sha256": " ".join(_digest(Path(file)) for file in files if file),
+    }
+
+
+def _digest(file: Path) -> str:
+    """What is in a file, as a number; nothing for one that is not there."""
+    return hashlib.sha256(file.read_bytes()).hexdigest() if file.is_file() else ""
 
 
 def _run(jobs: Sequence[Job], client: Any) -> dict[str, Row]:

@@ -55,8 +55,8 @@ def from_meshio(mesh: Any) -> Mesh:
 
 
 def to_pyvista(mesh: Mesh | Quads | Hexes) -> pyvista.PolyData | pyvista.UnstructuredGrid:
-    """The mesh as a `pyvista.PolyData` (surfaces) or `pyvista.UnstructuredGrid` (volumes), to be drawn and filtered; the
-    arrays of `Quads` and `Hexes` come along as cell data.
+    """The mesh as a `pyvista.PolyData` (surfaces) or `pyvista.UnstructuredGrid` (volumes), to be drawn and filtered.
+    The arrays of `Quads` and `Hexes` come along as cell data.
 
     Raises:
         ImportError: PyVista is not installed (`pip install pyvista`).
@@ -73,7 +73,8 @@ def to_pyvista(mesh: Mesh | Quads | Hexes) -> pyvista.PolyData | pyvista.Unstruc
 
 
 def from_pyvista(mesh: pyvista.DataSet) -> Mesh:
-    """The mesh of a PyVista data set: its hexahedra or tetrahedra, or where it has none, its quadrilaterals or triangles.
+    """The mesh of a PyVista data set: its hexahedra or tetrahedra, or where it has none, its quadrilaterals or
+    triangles.
 
     Raises:
         Unsupported: it has none of these, or two kinds of one dimension (`triangulate()` makes one of them).
