@@ -4,6 +4,7 @@ use crate::arrays::{self, flat, matrix, vector};
 use crate::errors;
 use crate::mesh::PyMesh;
 use crate::pickle::{self, Reduced};
+use crate::report;
 use polycube::measure::CellMeasures;
 use polycube::mesh::{CellField, Point, SolverFormat, write_solver};
 use polycube::remesh::{BoundaryFace, Hexes, grouped};
@@ -133,6 +134,11 @@ impl PyHexes {
     /// The number of hexahedra.
     fn __len__(&self) -> usize {
         self.0.label.len()
+    }
+
+    /// A picture for notebooks.
+    fn _repr_png_<'py>(slf: &Bound<'py, Self>) -> PyResult<Bound<'py, PyAny>> {
+        report::picture(slf)
     }
 
     fn __reduce__<'py>(&self, py: Python<'py>) -> PyResult<Reduced<'py>> {

@@ -4,7 +4,7 @@ use crate::arrays::vector;
 use crate::mesh::PyMesh;
 use crate::options::Keywords;
 use crate::pickle::{self, Reduced};
-use crate::report::to_dict;
+use crate::report::{self, to_dict};
 use crate::simplified::Source;
 use crate::work::{Failure, Listener};
 use polycube::Context;
@@ -80,6 +80,11 @@ impl PyMade {
     #[getter]
     fn report<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
         to_dict(py, &self.0.report)
+    }
+
+    /// A picture for notebooks.
+    fn _repr_png_<'py>(slf: &Bound<'py, Self>) -> PyResult<Bound<'py, PyAny>> {
+        report::picture(slf)
     }
 
     fn __reduce__<'py>(&self, py: Python<'py>) -> PyResult<Reduced<'py>> {

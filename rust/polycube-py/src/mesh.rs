@@ -2,6 +2,7 @@
 
 use crate::arrays::{self, flat, matrix};
 use crate::errors;
+use crate::report;
 use polycube::generate::{self, Example};
 use polycube::mesh::{self, CellField, CellKind, Cells, Point};
 use polycube::{Error, ErrorKind, Place};
@@ -114,6 +115,11 @@ impl PyMesh {
         let fields =
             fields.map_or(Ok(Vec::new()), |f| f.iter().map(|(name, values)| field(&name, &values)).collect())?;
         self.save(py, &path, &fields)
+    }
+
+    /// A picture for notebooks.
+    fn _repr_png_<'py>(slf: &Bound<'py, Self>) -> PyResult<Bound<'py, PyAny>> {
+        report::picture(slf)
     }
 
     /// A mesh is pickled and copied by its arrays, which every version reads.

@@ -3,6 +3,7 @@
 use crate::arrays::{self, flat, matrix, vector};
 use crate::mesh::PyMesh;
 use crate::pickle::{self, Reduced};
+use crate::report;
 use polycube::mesh::{CellField, Point};
 use polycube::remesh::Quads;
 use pyo3::prelude::*;
@@ -120,6 +121,11 @@ impl PyQuads {
     /// The number of quadrilaterals.
     fn __len__(&self) -> usize {
         self.0.label.len()
+    }
+
+    /// A picture for notebooks.
+    fn _repr_png_<'py>(slf: &Bound<'py, Self>) -> PyResult<Bound<'py, PyAny>> {
+        report::picture(slf)
     }
 
     fn __reduce__<'py>(&self, py: Python<'py>) -> PyResult<Reduced<'py>> {

@@ -7,7 +7,7 @@ use crate::mesh::PyMesh;
 use crate::options::Keywords;
 use crate::pickle::{self, Reduced};
 use crate::quads::PyQuads;
-use crate::report::to_dict;
+use crate::report::{self, to_dict};
 use crate::simplified::{PySimplified, Source};
 use crate::work::{Failure, Listener};
 use polycube::Context;
@@ -103,6 +103,11 @@ impl PyRemeshed {
     #[getter]
     fn report<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
         to_dict(py, &self.0.report)
+    }
+
+    /// A picture for notebooks.
+    fn _repr_png_<'py>(slf: &Bound<'py, Self>) -> PyResult<Bound<'py, PyAny>> {
+        report::picture(slf)
     }
 
     fn __reduce__<'py>(&self, py: Python<'py>) -> PyResult<Reduced<'py>> {

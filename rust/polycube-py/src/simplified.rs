@@ -5,7 +5,7 @@ use crate::errors;
 use crate::mesh::PyMesh;
 use crate::options::Keywords;
 use crate::pickle::{self, Reduced};
-use crate::report::to_dict;
+use crate::report::{self, to_dict};
 use crate::structure::{PyCounts, PyStructure};
 use crate::work::{Failure, Listener};
 use bitcode::{Decode, Encode};
@@ -241,6 +241,11 @@ impl PySimplified {
         let rescaled =
             move |result: &Simplified, input: &Input, context: &Context| result.rescaled(input, scale, context);
         self.again(py, &Listener { progress, cancel }, rescaled)
+    }
+
+    /// A picture for notebooks.
+    fn _repr_png_<'py>(slf: &Bound<'py, Self>) -> PyResult<Bound<'py, PyAny>> {
+        report::picture(slf)
     }
 
     fn __reduce__<'py>(&self, py: Python<'py>) -> PyResult<Reduced<'py>> {

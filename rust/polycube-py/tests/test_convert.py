@@ -36,10 +36,10 @@ def test_the_surface_for_trimesh(kind):
         assert np.array_equal(corners[:, [0, 1, 2, 5]], mesh.boundary())
 
 
-def test_the_arrays_of_meshes_come_along():
+def test_the_arrays_of_meshes_come_along(cube):
     pytest.importorskip("meshio")
     pyvista = pytest.importorskip("pyvista")
-    meshes = polycube.remesh(*polycube.example("stepped-l"), hexes=400, max_hausdorff=5)
+    meshes = polycube.remesh(cube, cube, hexes=60)
     for mesh, name in ((meshes.hexes, "scaled_jacobian"), (meshes.quads, "patch_id")):
         wanted = getattr(mesh, name)
         assert np.array_equal(polycube.to_meshio(mesh).cell_data[name][0], wanted)

@@ -5,6 +5,7 @@ import pickle
 
 import numpy as np
 import pytest
+from conftest import CUBE_POINTS, CUBE_QUADS
 
 import polycube
 
@@ -22,7 +23,7 @@ def results() -> dict[str, object]:
     shape, cube = polycube.example("stepped-l", kind="triangles")
     volume = polycube.example("stepped-l")
     flat = polycube.Mesh([[0, 0, 0], [1, 0, 0], [0, 1, 0], [0, 0, 1]], [[0, 1, 2, 3]], "tetrahedra")
-    meshes = polycube.remesh(shape, hexes=400, max_hausdorff=5)
+    meshes = polycube.remesh(polycube.Mesh(CUBE_POINTS, CUBE_QUADS, "quads"), hexes=60)
     simple = polycube.simplify(cube, shape, guides={"fixed": [0]}, max_displacement=0.01, steps=20)
     naive = polycube.simplify(volume[1], strategy="naive", scale=0.05)
     assert naive.polycube is None

@@ -77,6 +77,7 @@ class _Guides(TypedDict, total=False):
 @final
 class Mesh:
     def __new__(cls, points: npt.ArrayLike, cells: npt.ArrayLike, kind: str | None = None) -> Mesh: ...
+    def _repr_png_(self) -> bytes | None: ...
     @property
     def points(self) -> npt.NDArray[np.float64]: ...
     @property
@@ -165,6 +166,7 @@ class Structure:
 
 @final
 class Simplified:
+    def _repr_png_(self) -> bytes | None: ...
     @property
     def polycube(self) -> _Polycube: ...
     @property
@@ -196,6 +198,7 @@ class Simplified:
 
 @final
 class Quads:
+    def _repr_png_(self) -> bytes | None: ...
     @property
     def mesh(self) -> Mesh: ...
     @property
@@ -219,6 +222,7 @@ class Quads:
 
 @final
 class Hexes:
+    def _repr_png_(self) -> bytes | None: ...
     @property
     def mesh(self) -> Mesh: ...
     @property
@@ -264,6 +268,7 @@ class Layout:
 
 @final
 class Made:
+    def _repr_png_(self) -> bytes | None: ...
     @property
     def shape(self) -> Mesh: ...
     @property
@@ -277,6 +282,7 @@ class Made:
 
 @final
 class Remeshed:
+    def _repr_png_(self) -> bytes | None: ...
     @property
     def made(self) -> Made | None: ...
     @property
