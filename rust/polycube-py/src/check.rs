@@ -3,29 +3,53 @@
 use crate::errors;
 use crate::mesh::PyMesh;
 use crate::options::Keywords;
+use crate::pickle::{self, Reduced};
 use crate::structure::optional_labels;
-use polycube::Context;
+use bitcode::{Decode, Encode};
 use polycube::simplify::Input;
 use polycube::validate::{Finding, Subject, validate, validate_shape};
+use polycube::{Context, Place};
 use pyo3::prelude::*;
 use pyo3::types::{PyDict, PyTuple};
 
 /// One reason why a mesh is not a polycube.
 #[pyclass(frozen, module = "polycube", name = "Violation")]
-pub struct PyViolation(Finding);
+#[derive(Encode, Decode)]
+pub struct PyViolation {
+    rule: String,
+    mesh: Subject,
+    element: Option<Place>,
+    at: Option<[f64; 3]>,
+    message: String,
+    remedy: String,
+}
+
+impl From<Finding> for PyViolation {
+    fn from(finding: Finding) -> Self {
+        let Finding { rule, mesh, element, at, message, remedy } = finding;
+        Self { rule: rule.to_owned(), mesh, element, at, message, remedy }
+    }
+}
+
+impl PyViolation {
+    /// What was pickled.
+    pub fn restore(py: Python<'_>, rest: &[u8]) -> PyResult<Self> {
+        pickle::decode(py, rest)
+    }
+}
 
 #[pymethods]
 impl PyViolation {
     /// A short name of the rule broken, for programs: "open_edge", "skew_face", "self_overlap", ...
     #[getter]
-    fn kind(&self) -> &'static str {
-        self.0.rule
+    fn kind(&self) -> &str {
+        &self.rule
     }
 
     /// "polycube" or "shape".
     #[getter]
     fn mesh(&self) -> &'static str {
-        match self.0.mesh {
+        match self.mesh {
             Subject::Polycube => "polycube",
             Subject::Shape => "shape",
         }
@@ -34,36 +58,40 @@ impl PyViolation {
     /// What is wrong.
     #[getter]
     fn message(&self) -> &str {
-        &self.0.message
+        &self.message
     }
 
     /// What `elements` are: "vertex", "edge", "face" (of the boundary) or "cell"; None where no element is concerned.
     #[getter]
     fn element(&self) -> Option<&'static str> {
-        self.0.element.map(|place| errors::element(place).0)
+        self.element.map(|place| errors::element(place).0)
     }
 
     /// The element concerned: one number, or the two vertices of an edge.
     #[getter]
     fn elements<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyTuple>> {
-        PyTuple::new(py, self.0.element.map_or_else(Vec::new, |place| errors::element(place).1))
+        PyTuple::new(py, self.element.map_or_else(Vec::new, |place| errors::element(place).1))
     }
 
     /// The middle of the element, in the units of its mesh.
     #[getter]
     fn place(&self) -> Option<(f64, f64, f64)> {
-        self.0.at.map(|[x, y, z]| (x, y, z))
+        self.at.map(|[x, y, z]| (x, y, z))
     }
 
     /// How to mend it.
     #[getter]
     fn remedy(&self) -> &str {
-        &self.0.remedy
+        &self.remedy
+    }
+
+    fn __reduce__<'py>(&self, py: Python<'py>) -> PyResult<Reduced<'py>> {
+        pickle::reduce(py, "Violation", PyTuple::empty(py), self)
     }
 
     fn __repr__(&self) -> String {
-        let place = self.0.element.map(|place| format!("{place}: ")).unwrap_or_default();
-        format!("Violation({}: {place}{})", self.0.rule, self.0.message)
+        let place = self.element.map(|place| format!("{place}: ")).unwrap_or_default();
+        format!("Violation({}: {place}{})", self.rule, self.message)
     }
 }
 
@@ -104,7 +132,7 @@ pub fn check(
     let shape = shape.map(|shape| &*shape.0);
     let input = Input { polycube: &polycube.0, shape, labels: labels.as_deref() };
     let findings = py.detach(|| validate(&input, &tolerance)).map_err(|e| errors::raise(py, &e, None))?;
-    Ok(findings.into_iter().map(PyViolation).collect())
+    Ok(findings.into_iter().map(PyViolation::from).collect())
 }
 
 /// Lists everything that keeps a polycube from being made of a shape, or hexahedra from filling it, with place and
@@ -121,5 +149,5 @@ pub fn check(
 pub fn check_shape(py: Python<'_>, shape: &PyMesh) -> PyResult<Vec<PyViolation>> {
     let findings =
         py.detach(|| validate_shape(&shape.0, &Context::default())).map_err(|e| errors::raise(py, &e, None))?;
-    Ok(findings.into_iter().map(PyViolation).collect())
+    Ok(findings.into_iter().map(PyViolation::from).collect())
 }

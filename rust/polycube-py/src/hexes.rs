@@ -1,17 +1,20 @@
 //! The hexahedra of a meshed shape.
 
-use crate::arrays::{flat, matrix, vector};
+use crate::arrays::{self, flat, matrix, vector};
 use crate::errors;
 use crate::mesh::PyMesh;
+use crate::pickle::{self, Reduced};
+use crate::report;
 use polycube::measure::CellMeasures;
 use polycube::mesh::{CellField, Point, SolverFormat, write_solver};
 use polycube::remesh::{BoundaryFace, Hexes, grouped};
 use pyo3::prelude::*;
+use pyo3::types::PyTuple;
 use std::path::PathBuf;
 use std::sync::Arc;
 
 /// A hexahedral mesh of the shape. Arrays are read-only.
-#[pyclass(frozen, module = "polycube", name = "Hexes")]
+#[pyclass(frozen, from_py_object, module = "polycube", name = "Hexes")]
 #[derive(Clone)]
 pub struct PyHexes(Arc<HexParts>);
 
@@ -33,6 +36,16 @@ impl From<Hexes> for PyHexes {
         let mesh = mesh.into();
         let parts = HexParts { mesh, polycube, fields, label, block_id, boundary, scaled_jacobian, measures };
         Self(Arc::new(parts))
+    }
+}
+
+impl PyHexes {
+    /// What was pickled; what follows from it is computed again.
+    pub fn restore(parts: &Bound<'_, PyTuple>, rest: &[u8]) -> PyResult<Self> {
+        let (mesh,): (PyMesh,) = parts.extract()?;
+        let (points, label, block_id, boundary) = pickle::decode::<(_, _, _, _)>(parts.py(), rest)?;
+        let (mesh, polycube) = (mesh.into_inner(), arrays::points(points));
+        Ok(Hexes { mesh, polycube, carriers: Vec::new(), block_id, label, boundary, guessed: 0 }.into())
     }
 }
 
@@ -118,6 +131,22 @@ impl PyHexes {
         }
         let write = || write_solver(&path, &grouped(&mesh.0, block_id, boundary)?);
         py.detach(write).map_err(|e| errors::about(py, &e, Some(&mesh.0)))
+    }
+
+    /// The number of hexahedra.
+    fn __len__(&self) -> usize {
+        self.0.label.len()
+    }
+
+    /// A picture for notebooks.
+    fn _repr_png_<'py>(slf: &Bound<'py, Self>) -> PyResult<Bound<'py, PyAny>> {
+        report::picture(slf)
+    }
+
+    fn __reduce__<'py>(&self, py: Python<'py>) -> PyResult<Reduced<'py>> {
+        let HexParts { mesh, polycube, label, block_id, boundary, .. } = &*self.0;
+        let rest = (arrays::rows(polycube), label.clone(), block_id.clone(), boundary.clone());
+        pickle::reduce(py, "Hexes", (mesh.clone(),), &rest)
     }
 
     fn __repr__(&self) -> String {

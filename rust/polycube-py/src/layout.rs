@@ -1,17 +1,27 @@
 //! Blocks and patches of a meshed shape as single cells.
 
-use crate::arrays::{flat, matrix, vector};
+use crate::arrays::{self, matrix, vector};
 use crate::mesh::PyMesh;
-use polycube::mesh::Point;
-use polycube::remesh::Layout;
+use crate::pickle::{self, Reduced};
+use bitcode::{Decode, Encode};
+use polycube::remesh::{Layout, SingularEdge};
 use pyo3::prelude::*;
+use pyo3::types::PyTuple;
 use std::sync::Arc;
 
 /// A line of edges at which an irregular number of blocks meet.
 #[pyclass(frozen, module = "polycube", name = "SingularEdge")]
+#[derive(Clone, Encode, Decode)]
 pub struct PySingularEdge {
-    points: Vec<Point>,
+    points: Vec<[f64; 3]>,
     valence: u32,
+}
+
+impl PySingularEdge {
+    /// What was pickled.
+    pub fn restore(py: Python<'_>, rest: &[u8]) -> PyResult<Self> {
+        pickle::decode(py, rest)
+    }
 }
 
 #[pymethods]
@@ -19,7 +29,7 @@ impl PySingularEdge {
     /// Its vertices in order: (k, 3) float64 with k of at least 2, in units of the shape; read-only.
     #[getter]
     fn points<'py>(slf: &Bound<'py, Self>) -> PyResult<Bound<'py, PyAny>> {
-        matrix(slf, 3, |e| flat(&e.points))
+        matrix(slf, 3, |e| e.points.as_flattened())
     }
 
     /// How many blocks meet at it: without padding, on the surface, 1 or 3; with padding, inside, 3, 5 or more.
@@ -28,13 +38,23 @@ impl PySingularEdge {
         self.valence
     }
 
+    fn __reduce__<'py>(&self, py: Python<'py>) -> PyResult<Reduced<'py>> {
+        pickle::reduce(py, "SingularEdge", PyTuple::empty(py), self)
+    }
+
     fn __repr__(&self) -> String {
         format!("SingularEdge({} points, valence {})", self.points.len(), self.valence)
     }
 }
 
+impl From<&SingularEdge> for PySingularEdge {
+    fn from(edge: &SingularEdge) -> Self {
+        Self { points: arrays::rows(&edge.points), valence: edge.valence }
+    }
+}
+
 /// Blocks and patches as single cells on the shape.
-#[pyclass(frozen, module = "polycube", name = "Layout")]
+#[pyclass(frozen, from_py_object, module = "polycube", name = "Layout")]
 #[derive(Clone)]
 pub struct PyLayout(Arc<LayoutParts>);
 
@@ -42,7 +62,7 @@ struct LayoutParts {
     patches: PyMesh,
     patch_label: Vec<i8>,
     blocks: Option<PyMesh>,
-    singular: Vec<(Vec<Point>, u32)>,
+    singular: Vec<PySingularEdge>,
 }
 
 impl From<Layout> for PyLayout {
@@ -52,8 +72,17 @@ impl From<Layout> for PyLayout {
             patches: patches.into(),
             patch_label,
             blocks: blocks.map(PyMesh::from),
-            singular: singular.into_iter().map(|e| (e.points, e.valence)).collect(),
+            singular: singular.iter().map(PySingularEdge::from).collect(),
         }))
+    }
+}
+
+impl PyLayout {
+    /// What was pickled.
+    pub fn restore(parts: &Bound<'_, PyTuple>, rest: &[u8]) -> PyResult<Self> {
+        let (patches, blocks) = parts.extract()?;
+        let (patch_label, singular) = pickle::decode(parts.py(), rest)?;
+        Ok(Self(Arc::new(LayoutParts { patches, patch_label, blocks, singular })))
     }
 }
 
@@ -80,8 +109,12 @@ impl PyLayout {
     /// The edges of the polycube and, with padding, those from its corners to the surface.
     #[getter]
     fn singular_edges(&self) -> Vec<PySingularEdge> {
-        let edges = self.0.singular.iter();
-        edges.map(|(points, valence)| PySingularEdge { points: points.clone(), valence: *valence }).collect()
+        self.0.singular.clone()
+    }
+
+    fn __reduce__<'py>(&self, py: Python<'py>) -> PyResult<Reduced<'py>> {
+        let LayoutParts { patches, patch_label, blocks, singular } = &*self.0;
+        pickle::reduce(py, "Layout", (patches.clone(), blocks.clone()), &(patch_label.clone(), singular.clone()))
     }
 
     fn __repr__(&self) -> String {

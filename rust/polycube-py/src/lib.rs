@@ -12,9 +12,11 @@ mod layout;
 mod made;
 mod mesh;
 mod options;
+mod pickle;
 mod quads;
 mod remeshed;
 mod report;
+mod restore;
 mod simplified;
 mod structure;
 mod work;
@@ -41,6 +43,8 @@ mod native {
     use crate::quads::PyQuads;
     #[pymodule_export]
     use crate::remeshed::{PyRemeshed, remesh};
+    #[pymodule_export]
+    use crate::restore::_restore;
     #[pymodule_export]
     use crate::simplified::{PySimplified, PyTradeOff, simplify};
     #[pymodule_export]

@@ -3,17 +3,18 @@
 use crate::arrays::vector;
 use crate::mesh::PyMesh;
 use crate::options::Keywords;
-use crate::report::to_dict;
+use crate::pickle::{self, Reduced};
+use crate::report::{self, to_dict};
 use crate::simplified::Source;
 use crate::work::{Failure, Listener};
 use polycube::Context;
 use polycube::make::{Made, MakeReport, make as run};
 use pyo3::prelude::*;
-use pyo3::types::PyDict;
+use pyo3::types::{PyDict, PyTuple};
 use std::sync::Arc;
 
 /// A polycube that was made of a shape. Arrays are read-only.
-#[pyclass(frozen, module = "polycube", name = "Made")]
+#[pyclass(frozen, from_py_object, module = "polycube", name = "Made")]
 #[derive(Clone)]
 pub struct PyMade(Arc<Parts>);
 
@@ -32,6 +33,13 @@ impl From<Made> for PyMade {
 }
 
 impl PyMade {
+    /// What was pickled.
+    pub fn restore(parts: &Bound<'_, PyTuple>, rest: &[u8]) -> PyResult<Self> {
+        let (shape, polycube) = parts.extract()?;
+        let (labels, report) = pickle::decode(parts.py(), rest)?;
+        Ok(Self(Arc::new(Parts { shape, polycube, labels, report })))
+    }
+
     /// The polycube, its shape and its labels, to be simplified.
     pub fn source(&self) -> Source {
         let Parts { shape, polycube, labels, .. } = &*self.0;
@@ -72,6 +80,16 @@ impl PyMade {
     #[getter]
     fn report<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
         to_dict(py, &self.0.report)
+    }
+
+    /// A picture for notebooks.
+    fn _repr_png_<'py>(slf: &Bound<'py, Self>) -> PyResult<Bound<'py, PyAny>> {
+        report::picture(slf)
+    }
+
+    fn __reduce__<'py>(&self, py: Python<'py>) -> PyResult<Reduced<'py>> {
+        let Parts { shape, polycube, labels, report } = &*self.0;
+        pickle::reduce(py, "Made", (shape.clone(), polycube.clone()), &(labels.clone(), report.clone()))
     }
 
     fn __repr__(&self) -> String {

@@ -2,11 +2,12 @@
 
 use crate::arrays::{self, flat, matrix};
 use crate::errors;
+use crate::report;
 use polycube::generate::{self, Example};
 use polycube::mesh::{self, CellField, CellKind, Cells, Point};
 use polycube::{Error, ErrorKind, Place};
 use pyo3::prelude::*;
-use pyo3::types::PyDict;
+use pyo3::types::{PyDict, PyTuple};
 use std::path::PathBuf;
 use std::sync::Arc;
 
@@ -14,8 +15,8 @@ use std::sync::Arc;
 ///
 /// Args:
 ///     points: (n, 3) float64. Vertex positions. Other numbers are converted.
-///     cells: (m, k) integers from 0 to n - 1. Vertices of each cell; surfaces counter-clockwise seen from outside,
-///         volumes in VTK's order.
+///     cells: (m, k) integers from 0 to n - 1, also as floats without a fraction. Vertices of each cell; surfaces
+///         counter-clockwise seen from outside, volumes in VTK's order.
 ///     kind: "triangles", "quads", "tetrahedra" or "hexahedra". Needed for k = 4 only.
 ///
 /// Raises:
@@ -26,7 +27,7 @@ use std::sync::Arc;
 /// >>> import polycube
 /// >>> polycube.Mesh([[0, 0, 0], [1, 0, 0], [0, 1, 0], [0, 0, 1]], [[0, 1, 2, 3]], "tetrahedra")
 /// Mesh(4 points, 1 tetrahedra)
-#[pyclass(frozen, module = "polycube", name = "Mesh")]
+#[pyclass(frozen, from_py_object, module = "polycube", name = "Mesh")]
 #[derive(Clone)]
 pub struct PyMesh(pub Arc<mesh::Mesh>);
 
@@ -80,6 +81,11 @@ impl PyMesh {
         self.0.cells().is_volume()
     }
 
+    /// The number of cells.
+    fn __len__(&self) -> usize {
+        self.0.cells().len()
+    }
+
     /// The boundary faces, outward: (f, 3 or 4) uint32. Labels, facets and locks are numbered like them. The boundary
     /// of a surface is its cells.
     ///
@@ -111,12 +117,28 @@ impl PyMesh {
         self.save(py, &path, &fields)
     }
 
+    /// A picture for notebooks.
+    fn _repr_png_<'py>(slf: &Bound<'py, Self>) -> PyResult<Bound<'py, PyAny>> {
+        report::picture(slf)
+    }
+
+    /// A mesh is pickled and copied by its arrays, which every version reads.
+    fn __reduce__<'py>(slf: &Bound<'py, Self>) -> PyResult<(Bound<'py, PyAny>, Bound<'py, PyTuple>)> {
+        let arguments = (Self::points(slf)?, Self::cells(slf)?, slf.get().kind()).into_pyobject(slf.py())?;
+        Ok((slf.get_type().into_any(), arguments))
+    }
+
     fn __repr__(&self) -> String {
         format!("Mesh({} points, {} {})", self.0.points().len(), self.0.cells().len(), self.kind())
     }
 }
 
 impl PyMesh {
+    /// The library's mesh, copied where another still holds it.
+    pub fn into_inner(self) -> mesh::Mesh {
+        Arc::unwrap_or_clone(self.0)
+    }
+
     /// Writes the mesh with fields, letting other Python threads run.
     pub fn save(&self, py: Python<'_>, path: &std::path::Path, fields: &[CellField]) -> PyResult<()> {
         py.detach(|| mesh::write(path, &self.0, fields)).map_err(|e| errors::about(py, &e, Some(&self.0)))
@@ -125,7 +147,8 @@ impl PyMesh {
 
 fn field(name: &Bound<'_, PyAny>, values: &Bound<'_, PyAny>) -> PyResult<CellField> {
     let name: String = name.extract()?;
-    if let Ok((whole, _)) = arrays::whole("fields").read::<i64>(values) {
+    if arrays::is_of_kind(values, b"iu")? {
+        let (whole, _) = arrays::whole("fields").read::<i64>(values)?;
         let narrow = whole.iter().map(|&x| i32::try_from(x)).collect::<Result<_, _>>();
         if let Ok(narrow) = narrow {
             return Ok(CellField::integer(name, narrow));

@@ -5,6 +5,7 @@ use crate::errors;
 use polycube::align::{Effort, Guides, SolverKind, Strategy};
 use polycube::layout::Objective;
 use polycube::make::{Axes, MakeOptions};
+use polycube::mesh::Mesh;
 use polycube::remesh::{RemeshOptions, Size};
 use polycube::simplify::SimplifyOptions;
 use polycube::structure::Tolerance;
@@ -45,6 +46,16 @@ impl<'py> Keywords<'py> {
             PyTypeError::new_err(format!("{}(): {name}: {}", self.function, e.value(self.py())))
         };
         value.extract().map(Some).map_err(wrong)
+    }
+
+    /// Takes a whole number, also as a float without a fraction.
+    fn whole<T: FromPyObjectOwned<'py>>(&self, name: &str) -> PyResult<Option<T>> {
+        if let Some(value) = self.left.get_item(name)?
+            && value.call_method0("is_integer").and_then(|whole| whole.is_truthy()).unwrap_or(false)
+        {
+            self.left.set_item(name, value.call_method0("__int__")?)?;
+        }
+        self.take(name)
     }
 
     /// Takes a number that `holds` must accept.
@@ -106,7 +117,7 @@ impl<'py> Keywords<'py> {
         }
         let detail = self.take("detail")?.unwrap_or(MakeOptions::default().detail);
         let axes = self.word("axes", &[("keep", Axes::Keep), ("best", Axes::Best)])?.unwrap_or_default();
-        let options = MakeOptions { detail, corners: self.take("corners")?, axes, labels: None };
+        let options = MakeOptions { detail, corners: self.whole("corners")?, axes, labels: None };
         options.check().map_err(|e| errors::raise(self.py(), &e, None))?;
         Ok(options)
     }
@@ -114,6 +125,16 @@ impl<'py> Keywords<'py> {
     /// Takes the labels of the polycube's boundary faces.
     pub fn labels(&self) -> PyResult<Option<Vec<i8>>> {
         self.take::<Bound<'py, PyAny>>("labels")?.map(|labels| crate::mesh::labels(&labels)).transpose()
+    }
+
+    /// Turns a mask of the boundary faces of `polycube` that must not move into their numbers.
+    pub fn number_faces(&self, polycube: &Mesh) -> PyResult<()> {
+        let Some(faces) = self.left.get_item("locked_faces")? else {
+            return Ok(());
+        };
+        // A mesh that has no boundary is refused for that later.
+        let count = polycube.cells().boundary().map_or(0, |faces| faces.len());
+        self.left.set_item("locked_faces", arrays::numbers_of("locked_faces", &faces, count)?)
     }
 
     /// Takes the boundary faces whose facets must not move.
@@ -183,8 +204,8 @@ impl<'py> Keywords<'py> {
         let limit = seconds.map(Duration::try_from_secs_f64).transpose();
         let limit = limit.map_err(|e| errors::option(self.py(), format!("time_limit: {e}"), "give fewer seconds"))?;
         Ok(Effort {
-            steps_per_level: self.take("steps")?.unwrap_or(default.steps_per_level),
-            proof_nodes: self.take("proof_nodes")?.unwrap_or(default.proof_nodes),
+            steps_per_level: self.whole("steps")?.unwrap_or(default.steps_per_level),
+            proof_nodes: self.whole("proof_nodes")?.unwrap_or(default.proof_nodes),
             time_limit: limit,
         })
     }
@@ -209,7 +230,7 @@ impl<'py> Keywords<'py> {
         let default = RemeshOptions::default();
         let options = RemeshOptions {
             size: self.size()?,
-            padding: self.take("padding")?.unwrap_or(default.padding),
+            padding: self.whole("padding")?.unwrap_or(default.padding),
             surface_only: self.take("surface_only")?.unwrap_or(false),
             max_hausdorff: self.positive("max_hausdorff")?.map_or(default.max_hausdorff, |percent| percent / 100.0),
             simplify: self.method()?,
@@ -219,7 +240,7 @@ impl<'py> Keywords<'py> {
     }
 
     fn size(&self) -> PyResult<Option<Size>> {
-        let hexes = self.take::<usize>("hexes")?.map(Size::Hexes);
+        let hexes = self.whole::<usize>("hexes")?.map(Size::Hexes);
         let length = self.take("edge_length")?.map(Size::EdgeLength);
         let scale = self.take("scale")?.map(Size::Scale);
         let mut given = [hexes, length, scale].into_iter().flatten();

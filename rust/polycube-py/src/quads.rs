@@ -1,15 +1,18 @@
 //! The quadrilaterals of a meshed shape.
 
-use crate::arrays::{flat, matrix, vector};
+use crate::arrays::{self, flat, matrix, vector};
 use crate::mesh::PyMesh;
+use crate::pickle::{self, Reduced};
+use crate::report;
 use polycube::mesh::{CellField, Point};
 use polycube::remesh::Quads;
 use pyo3::prelude::*;
+use pyo3::types::PyTuple;
 use std::path::PathBuf;
 use std::sync::Arc;
 
 /// A quadrilateral mesh of the shape's surface. Arrays are read-only.
-#[pyclass(frozen, module = "polycube", name = "Quads")]
+#[pyclass(frozen, from_py_object, module = "polycube", name = "Quads")]
 #[derive(Clone)]
 pub struct PyQuads(Arc<QuadParts>);
 
@@ -40,6 +43,16 @@ impl From<Quads> for PyQuads {
             scaled_jacobian,
             feature_edges,
         }))
+    }
+}
+
+impl PyQuads {
+    /// What was pickled; what follows from it is computed again.
+    pub fn restore(parts: &Bound<'_, PyTuple>, rest: &[u8]) -> PyResult<Self> {
+        let (mesh,): (PyMesh,) = parts.extract()?;
+        let (points, label, patch_id, block_id) = pickle::decode::<(_, _, _, _)>(parts.py(), rest)?;
+        let (mesh, polycube) = (mesh.into_inner(), arrays::points(points));
+        Ok(Quads { mesh, polycube, carriers: Vec::new(), label, patch_id, block_id, guessed: 0 }.into())
     }
 }
 
@@ -103,6 +116,23 @@ impl PyQuads {
     /// Writes the mesh with `label`, `patch_id` and `block_id`, where the format holds them; see `Mesh.write`.
     fn write(&self, py: Python<'_>, path: PathBuf) -> PyResult<()> {
         self.0.mesh.save(py, &path, &self.0.fields)
+    }
+
+    /// The number of quadrilaterals.
+    fn __len__(&self) -> usize {
+        self.0.label.len()
+    }
+
+    /// A picture for notebooks.
+    fn _repr_png_<'py>(slf: &Bound<'py, Self>) -> PyResult<Bound<'py, PyAny>> {
+        report::picture(slf)
+    }
+
+    fn __reduce__<'py>(&self, py: Python<'py>) -> PyResult<Reduced<'py>> {
+        let QuadParts { mesh, polycube, label, patch_id, block_id, .. } = &*self.0;
+        let rest: (Vec<[f64; 3]>, _, _, _) =
+            (arrays::rows(polycube), label.clone(), patch_id.clone(), block_id.clone());
+        pickle::reduce(py, "Quads", (mesh.clone(),), &rest)
     }
 
     fn __repr__(&self) -> String {

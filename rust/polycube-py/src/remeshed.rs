@@ -5,8 +5,9 @@ use crate::layout::PyLayout;
 use crate::made::PyMade;
 use crate::mesh::PyMesh;
 use crate::options::Keywords;
+use crate::pickle::{self, Reduced};
 use crate::quads::PyQuads;
-use crate::report::to_dict;
+use crate::report::{self, to_dict};
 use crate::simplified::{PySimplified, Source};
 use crate::work::{Failure, Listener};
 use polycube::Context;
@@ -14,7 +15,7 @@ use polycube::make::{self, MakeOptions};
 use polycube::mesh::Mesh;
 use polycube::remesh::{RemeshOptions, RemeshReport, Remeshed, remesh as run};
 use pyo3::prelude::*;
-use pyo3::types::PyDict;
+use pyo3::types::{PyDict, PyTuple};
 use std::sync::Arc;
 
 /// Meshes of a shape and the block structure that they have.
@@ -32,6 +33,13 @@ struct Parts {
 }
 
 impl PyRemeshed {
+    /// What was pickled.
+    pub fn restore(parts: &Bound<'_, PyTuple>, rest: &[u8]) -> PyResult<Self> {
+        let (simplified, quads, hexes, layout, made) = parts.extract()?;
+        let report = pickle::decode(parts.py(), rest)?;
+        Ok(Self(Arc::new(Parts { simplified, quads, hexes, layout, made, report })))
+    }
+
     fn new(result: Remeshed, source: Source, made: Option<PyMade>) -> Self {
         let Remeshed { simplified, layout, quads, hexes, report } = result;
         Self(Arc::new(Parts {
@@ -95,6 +103,17 @@ impl PyRemeshed {
     #[getter]
     fn report<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
         to_dict(py, &self.0.report)
+    }
+
+    /// A picture for notebooks.
+    fn _repr_png_<'py>(slf: &Bound<'py, Self>) -> PyResult<Bound<'py, PyAny>> {
+        report::picture(slf)
+    }
+
+    fn __reduce__<'py>(&self, py: Python<'py>) -> PyResult<Reduced<'py>> {
+        let Parts { simplified, quads, hexes, layout, made, report } = &*self.0;
+        let parts = (simplified.clone(), quads.clone(), hexes.clone(), layout.clone(), made.clone());
+        pickle::reduce(py, "Remeshed", parts, report)
     }
 
     fn __repr__(&self) -> String {

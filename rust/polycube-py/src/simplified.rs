@@ -1,16 +1,19 @@
 //! Simplifying a polycube, and what comes of it.
 
 use crate::arrays::vector;
+use crate::errors;
 use crate::mesh::PyMesh;
 use crate::options::Keywords;
-use crate::report::to_dict;
+use crate::pickle::{self, Reduced};
+use crate::report::{self, to_dict};
 use crate::structure::{PyCounts, PyStructure};
 use crate::work::{Failure, Listener};
+use bitcode::{Decode, Encode};
 use polycube::Context;
 use polycube::mesh::Mesh;
 use polycube::simplify::{Input, Simplified, SimplifyOptions, simplify as run};
 use pyo3::prelude::*;
-use pyo3::types::PyDict;
+use pyo3::types::{PyDict, PyTuple};
 use std::sync::{Arc, OnceLock};
 
 /// What a simplification starts from.
@@ -27,6 +30,7 @@ pub struct Source {
 impl Source {
     /// The arguments that say what is simplified.
     pub fn new(polycube: &PyMesh, shape: Option<&PyMesh>, keywords: &Keywords<'_>) -> PyResult<Self> {
+        keywords.number_faces(&polycube.0)?;
         Ok(Self {
             polycube: Arc::clone(&polycube.0),
             shape: shape.map(|shape| Arc::clone(&shape.0)),
@@ -52,6 +56,7 @@ impl Source {
 
 /// A trade-off between few blocks and little displacement, met by the search.
 #[pyclass(frozen, module = "polycube", name = "TradeOff", get_all)]
+#[derive(Encode, Decode)]
 pub struct PyTradeOff {
     /// What the objective counts.
     count: usize,
@@ -59,15 +64,26 @@ pub struct PyTradeOff {
     displacement: f64,
 }
 
+impl PyTradeOff {
+    /// What was pickled.
+    pub fn restore(py: Python<'_>, rest: &[u8]) -> PyResult<Self> {
+        pickle::decode(py, rest)
+    }
+}
+
 #[pymethods]
 impl PyTradeOff {
+    fn __reduce__<'py>(&self, py: Python<'py>) -> PyResult<Reduced<'py>> {
+        pickle::reduce(py, "TradeOff", PyTuple::empty(py), self)
+    }
+
     fn __repr__(&self) -> String {
         format!("TradeOff(count={}, displacement={})", self.count, self.displacement)
     }
 }
 
 /// A simplified polycube.
-#[pyclass(frozen, module = "polycube", name = "Simplified")]
+#[pyclass(frozen, from_py_object, module = "polycube", name = "Simplified")]
 #[derive(Clone)]
 pub struct PySimplified(Arc<Parts>);
 
@@ -85,6 +101,17 @@ impl PySimplified {
         let labels = result.input.labels().map(|l| l.index() as i8).collect();
         let polycube = result.polycube.take().map(PyMesh::from);
         Self(Arc::new(Parts { source, result, polycube, labels, structure: OnceLock::new() }))
+    }
+
+    /// What was pickled. The structure of the input is read again, in linear time.
+    pub fn restore(parts: &Bound<'_, PyTuple>, rest: &[u8]) -> PyResult<Self> {
+        let py = parts.py();
+        let (input, shape, mesh): (PyMesh, Option<PyMesh>, Option<PyMesh>) = parts.extract()?;
+        let (labels, state) = pickle::decode::<(Option<Vec<i8>>, Vec<u8>)>(py, rest)?;
+        let source = Source { polycube: input.0, shape: shape.map(|shape| shape.0), labels };
+        let again = || Simplified::from_state(&source.input(), mesh.map(PyMesh::into_inner), &state);
+        let result = py.detach(again).map_err(|e| errors::raise(py, &e, None))?;
+        Ok(Self::new(result, source))
     }
 
     /// Another result from the same source, made while `listener` listens.
@@ -216,6 +243,17 @@ impl PySimplified {
         self.again(py, &Listener { progress, cancel }, rescaled)
     }
 
+    /// A picture for notebooks.
+    fn _repr_png_<'py>(slf: &Bound<'py, Self>) -> PyResult<Bound<'py, PyAny>> {
+        report::picture(slf)
+    }
+
+    fn __reduce__<'py>(&self, py: Python<'py>) -> PyResult<Reduced<'py>> {
+        let Parts { source, result, polycube, .. } = &*self.0;
+        let parts = (PyMesh(source.polycube.clone()), source.shape.clone().map(PyMesh), polycube.clone());
+        pickle::reduce(py, "Simplified", parts, &(source.labels.clone(), result.state()))
+    }
+
     fn __repr__(&self) -> String {
         let count = |c: polycube::layout::Counts| c.blocks_padded;
         let report = &self.0.result.report;
@@ -250,7 +288,8 @@ impl PySimplified {
 ///         none shall.
 ///     max_distortion: only with "best", the largest mean angle distortion, 1 or more, of the map from the shape to
 ///         the result.
-///     locked_faces: with every strategy, numbers of boundary faces whose facets must not move.
+///     locked_faces: with every strategy, boundary faces whose facets must not move: their numbers, or a mask, (f,)
+///         bool.
 ///     guides: with every strategy, what else to keep: `{"fixed": facets, "together": [facets], "apart": [[facet,
 ///         facet]], "symmetry": [{"axis": 0, "at": 0.0}], "fixed_faces": faces, "fixed_labels": labels}`, by the
 ///         numbers of `structure(polycube)`.

@@ -4,18 +4,27 @@ use crate::arrays::{matrix, vector};
 use crate::errors;
 use crate::mesh::{PyMesh, labels};
 use crate::options::Keywords;
+use crate::pickle::{self, Reduced};
+use bitcode::{Decode, Encode};
 use polycube::layout::{Counts, Pieces, count};
 use polycube::mesh::Mesh;
 use polycube::simplify::{Input, read_structure};
-use polycube::structure::{Arrangement, Polycube};
+use polycube::structure::{Arrangement, Deviation, Polycube};
 use pyo3::prelude::*;
-use pyo3::types::PyDict;
+use pyo3::types::{PyDict, PyTuple};
 use std::sync::Arc;
 
 /// How coarse a block structure is.
 #[pyclass(frozen, eq, module = "polycube", name = "Counts")]
 #[derive(Clone, Copy, PartialEq, Eq)]
 pub struct PyCounts(pub Counts);
+
+impl PyCounts {
+    /// What was pickled.
+    pub fn restore(py: Python<'_>, rest: &[u8]) -> PyResult<Self> {
+        pickle::decode(py, rest).map(Self)
+    }
+}
 
 #[pymethods]
 impl PyCounts {
@@ -37,6 +46,10 @@ impl PyCounts {
         self.0.blocks_padded
     }
 
+    fn __reduce__<'py>(&self, py: Python<'py>) -> PyResult<Reduced<'py>> {
+        pickle::reduce(py, "Counts", PyTuple::empty(py), &self.0)
+    }
+
     fn __repr__(&self) -> String {
         let Counts { surface_patches, blocks, blocks_padded } = self.0;
         format!("Counts(surface_patches={surface_patches}, blocks={blocks}, blocks_padded={blocks_padded})")
@@ -48,17 +61,25 @@ impl PyCounts {
 #[derive(Clone)]
 pub struct PyStructure(Arc<Parts>);
 
+#[derive(Encode, Decode)]
 struct Parts {
-    polycube: Polycube,
-    pieces: Pieces,
     counts: Counts,
+    components: usize,
+    genus: usize,
+    deviation: Deviation,
     faces: Vec<u32>,
     columns: usize,
     labels: Vec<i8>,
+    facet_of_face: Vec<u32>,
+    patch_of_face: Vec<u32>,
+    block_of_face: Vec<u32>,
+    chains: Vec<Vec<u32>>,
+    levels: Vec<f64>,
     rows: FlatRows,
 }
 
 /// The columns of the structure's tables.
+#[derive(Encode, Decode)]
 struct FlatRows {
     corners: Vec<u32>,
     corner_valence: Vec<u32>,
@@ -90,16 +111,28 @@ impl PyStructure {
     pub fn new(polycube: Polycube, mesh: &Mesh) -> Self {
         let arrangement = Arrangement::new(&polycube.structure, &polycube.placement);
         let faces: Vec<u32> = polycube.surface.faces().iter().flat_map(|f| f.vertices()).copied().collect();
+        let pieces = Pieces::of_faces(&polycube, mesh.points(), &polycube.placement);
         let parts = Parts {
             counts: count(&arrangement),
-            pieces: Pieces::of_faces(&polycube, mesh.points(), &polycube.placement),
+            components: polycube.structure.components().into_iter().max().map_or(0, |c| c as usize + 1),
+            genus: polycube.structure.genus(),
+            deviation: polycube.deviation,
             columns: faces.len() / polycube.surface.faces().len().max(1),
             faces,
             labels: polycube.labels().map(|l| l.index() as i8).collect(),
+            patch_of_face: pieces.patch_of_face,
+            block_of_face: pieces.block_of_face,
             rows: FlatRows::new(&polycube),
-            polycube,
+            facet_of_face: polycube.facet_of_face,
+            chains: polycube.chains,
+            levels: polycube.placement,
         };
         Self(Arc::new(parts))
+    }
+
+    /// What was pickled.
+    pub fn restore(py: Python<'_>, rest: &[u8]) -> PyResult<Self> {
+        pickle::decode(py, rest).map(|parts| Self(Arc::new(parts)))
     }
 }
 
@@ -120,19 +153,19 @@ impl PyStructure {
     /// The facet of every boundary face: (f,) uint32.
     #[getter]
     fn facet<'py>(slf: &Bound<'py, Self>) -> PyResult<Bound<'py, PyAny>> {
-        vector(slf, |s| &s.0.polycube.facet_of_face)
+        vector(slf, |s| &s.0.facet_of_face)
     }
 
     /// The patch that the middle of every boundary face lies in: (f,) uint32 below `counts.surface_patches`.
     #[getter]
     fn patch_id<'py>(slf: &Bound<'py, Self>) -> PyResult<Bound<'py, PyAny>> {
-        vector(slf, |s| &s.0.pieces.patch_of_face)
+        vector(slf, |s| &s.0.patch_of_face)
     }
 
     /// The block behind the middle of every boundary face: (f,) uint32 below `counts.blocks`.
     #[getter]
     fn block_id<'py>(slf: &Bound<'py, Self>) -> PyResult<Bound<'py, PyAny>> {
-        vector(slf, |s| &s.0.pieces.block_of_face)
+        vector(slf, |s| &s.0.block_of_face)
     }
 
     /// The mesh vertex of every corner: (c,) uint32.
@@ -156,7 +189,7 @@ impl PyStructure {
     /// The mesh vertices along every edge, from its lower to its higher corner: a list of uint32 arrays.
     #[getter]
     fn edges<'py>(slf: &Bound<'py, Self>) -> PyResult<Vec<Bound<'py, PyAny>>> {
-        (0..slf.get().0.polycube.chains.len()).map(|i| vector(slf, |s| &s.0.polycube.chains[i])).collect()
+        (0..slf.get().0.chains.len()).map(|i| vector(slf, |s| &s.0.chains[i])).collect()
     }
 
     /// The facet on the left and on the right of every edge, seen from outside along it: (e, 2) uint32.
@@ -186,7 +219,7 @@ impl PyStructure {
     /// The coordinate of every level: (l,) float64, in units of the mesh.
     #[getter]
     fn levels<'py>(slf: &Bound<'py, Self>) -> PyResult<Bound<'py, PyAny>> {
-        vector(slf, |s| &s.0.polycube.placement)
+        vector(slf, |s| &s.0.levels)
     }
 
     /// How many patches and blocks there are.
@@ -198,25 +231,30 @@ impl PyStructure {
     /// How many parts the surface has that are not connected.
     #[getter]
     fn components(&self) -> usize {
-        self.0.polycube.structure.components().into_iter().max().map_or(0, |c| c as usize + 1)
+        self.0.components
     }
 
     /// How many handles the surface has, over all its parts.
     #[getter]
     fn genus(&self) -> usize {
-        self.0.polycube.structure.genus()
+        self.0.genus
     }
 
     /// How far the mesh is from an exact polycube: the largest angle between a face and its axis, in degrees, and the
     /// largest distance of a vertex from the plane of its facet, in units of the mesh.
     #[getter]
     fn deviation(&self) -> (f64, f64) {
-        (self.0.polycube.deviation.degrees, self.0.polycube.deviation.distance)
+        (self.0.deviation.degrees, self.0.deviation.distance)
+    }
+
+    fn __reduce__<'py>(&self, py: Python<'py>) -> PyResult<Reduced<'py>> {
+        pickle::reduce(py, "Structure", PyTuple::empty(py), &*self.0)
     }
 
     fn __repr__(&self) -> String {
-        let s = &self.0.polycube.structure;
-        format!("Structure({} corners, {} edges, {} facets)", s.corners.len(), s.edges.len(), s.facets.len())
+        let Parts { rows, chains, .. } = &*self.0;
+        let (corners, edges, facets) = (rows.corners.len(), chains.len(), rows.facet_label.len());
+        format!("Structure({corners} corners, {edges} edges, {facets} facets)")
     }
 }
 

@@ -5,13 +5,12 @@ import inspect
 import re
 import runpy
 import sys
-from pathlib import Path
 
 import pytest
+from snippets import DOCUMENTS, HERE, blocks
 
 import polycube
 
-HERE = Path(__file__).resolve().parents[1]
 
 
 def documented() -> dict[str, object]:
@@ -42,14 +41,14 @@ def test_everything_public_is_documented():
     assert [name for name, value in values.items() if not inspect.getdoc(value)] == []
 
 
-@pytest.mark.parametrize("readme", [HERE / "README.md", HERE.parents[1] / "README.md"], ids=["module", "project"])
-def test_the_readme(readme, tmp_path, monkeypatch):
+@pytest.mark.parametrize("document", DOCUMENTS.values(), ids=DOCUMENTS)
+def test_the_documents(document, tmp_path, monkeypatch):
     monkeypatch.chdir(tmp_path)
-    code = re.findall(r"```python\n(.*?)```", readme.read_text(), re.DOTALL)
+    code = blocks(document)
     assert code
     names: dict[str, object] = {}
     for block in code:
-        exec(compile(block, str(readme), "exec"), names)
+        exec(compile(block, str(document), "exec"), names)
 
 
 @pytest.mark.parametrize("example", sorted((HERE / "examples").glob("*.py")), ids=lambda path: path.name)

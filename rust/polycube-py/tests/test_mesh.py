@@ -77,7 +77,9 @@ def test_the_bad_cell_is_named():
     [
         ([["a", "b", "c"]], [[0, 0, 0]]),
         (np.zeros((4, 3), complex), [[0, 1, 2]]),
-        (POINTS, [[0.0, 1.0, 2.0]]),
+        (POINTS, [[0.0, 1.0, 2.5]]),
+        (POINTS, [[0.0, 1.0, np.nan]]),
+        (POINTS, [[0.0, 1.0, 1e300]]),
         (POINTS, np.array([[True, False, True]])),
         (object(), [[0, 1, 2]]),
     ],
@@ -85,6 +87,33 @@ def test_the_bad_cell_is_named():
 def test_other_types_are_refused(points, cells):
     with pytest.raises(TypeError):
         polycube.Mesh(points, cells)
+
+
+def test_cells_may_be_floats_without_a_fraction_and_others_are_named():
+    mesh = polycube.Mesh(CUBE_POINTS, CUBE_QUADS.astype(float), "quads")
+    assert np.array_equal(mesh.cells, CUBE_QUADS)
+    cells = CUBE_QUADS.astype(float)
+    cells[4, 1] = np.nan
+    with pytest.raises(TypeError, match="cells: .* row 4 has NaN"):
+        polycube.Mesh(CUBE_POINTS, cells, "quads")
+    with pytest.raises(TypeError, match="labels: .* row 2 has 0.5"):
+        polycube.check(mesh, labels=[0, 1, 0.5, 3, 4, 5])
+
+
+@pytest.mark.parametrize("bad", [np.nan, np.inf])
+def test_a_point_that_is_not_finite_is_named(bad):
+    points = CUBE_POINTS.copy()
+    points[5, 2] = bad
+    with pytest.raises(polycube.InvalidMesh) as caught:
+        polycube.Mesh(points, CUBE_QUADS, "quads")
+    assert (caught.value.element, caught.value.elements) == ("vertex", (5,))
+
+
+def test_the_length_is_the_number_of_cells(cube, pair):
+    assert (len(cube), len(pair[0])) == (6, len(pair[0].cells))
+    meshes = polycube.remesh(cube, cube, hexes=60)
+    assert len(meshes.hexes) == len(meshes.hexes.cells) == meshes.report["hexes"]
+    assert len(meshes.quads) == len(meshes.quads.cells) == meshes.report["quads"]
 
 
 def test_an_unknown_kind_is_refused():
@@ -151,11 +180,13 @@ def test_a_volume_is_read_back_and_meshio_agrees(tmp_path, pair, extension):
 def test_fields_are_written(tmp_path, cube):
     meshio = pytest.importorskip("meshio")
     path = tmp_path / "cube.vtu"
-    cube.write(path, {"label": np.arange(6), "weight": np.linspace(0, 1, 6), "many": [2**40] * 6})
+    whole = np.arange(6.0)
+    cube.write(path, {"label": np.arange(6), "weight": np.linspace(0, 1, 6), "many": [2**40] * 6, "whole": whole})
     data = meshio.read(path).cell_data
     assert data["label"][0].tolist() == [0, 1, 2, 3, 4, 5]
     assert data["weight"][0].tolist() == np.linspace(0, 1, 6).tolist()
     assert data["many"][0].tolist() == [2.0**40] * 6
+    assert (data["label"][0].dtype.kind, data["whole"][0].dtype.kind) == ("i", "f")
 
 
 def test_bad_fields_are_refused(tmp_path, cube):

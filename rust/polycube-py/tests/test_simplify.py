@@ -164,10 +164,46 @@ def test_bad_guides(cube):
             polycube.simplify(cube, guides=guides)
     with pytest.raises(polycube.InvalidOption, match="face 6: .* only 6 boundary faces"):
         polycube.simplify(cube, locked_faces=[6])
+    with pytest.raises(polycube.InvalidOption, match=r"locked_faces is a mask of the shape \[5\], .* 6 boundary faces"):
+        polycube.simplify(cube, locked_faces=np.ones(5, bool))
     with pytest.raises(polycube.InvalidOption, match="negative"):
         polycube.simplify(cube, locked_faces=[-1])
     with pytest.raises(TypeError):
         polycube.simplify(cube, guides={"fixed": object()})
+
+
+def test_a_mask_locks_the_faces_that_it_names():
+    mesh = polycube.example("cube-spikes", kind="quads")[1]
+    found = polycube.structure(mesh)
+    moved = facet_planes(polycube.simplify(mesh, strategy="paper")) != found.levels[found.facet_level]
+    mask = found.facet == np.flatnonzero(moved)[0]
+    masked = polycube.simplify(mesh, strategy="paper", locked_faces=mask)
+    numbered = polycube.simplify(mesh, strategy="paper", locked_faces=np.flatnonzero(mask))
+    assert np.array_equal(masked.levels, numbered.levels)
+    assert not np.array_equal(masked.levels, polycube.simplify(mesh, strategy="paper").levels)
+
+
+def test_whole_numbers_may_be_floats(cube):
+    whole = {"hexes": 60, "padding": 2, "steps": 30, "proof_nodes": 10}
+    wanted = polycube.remesh(cube, cube, **whole).hexes.points
+    for kind in (float, np.float64, np.float32, np.int16):
+        given = {name: kind(value) for name, value in whole.items()}
+        assert np.array_equal(polycube.remesh(cube, cube, **given).hexes.points, wanted)
+    for bad in (60.5, float("nan"), float("inf"), "60"):
+        with pytest.raises(TypeError, match="hexes"):
+            polycube.remesh(cube, cube, hexes=bad)
+
+
+@pytest.mark.parametrize("function", [polycube.Job.simplify, polycube.Job.remesh, polycube.Job.make])
+def test_no_option_is_nan(cube, function):
+    """At once, before any work, with the name of the option."""
+    refused = 0
+    for name, parameter in inspect.signature(function).parameters.items():
+        if parameter.kind is parameter.KEYWORD_ONLY:
+            with pytest.raises((polycube.InvalidOption, TypeError), match=name):
+                function(cube, **{name: float("nan")})
+            refused += 1
+    assert refused >= 3
 
 
 def test_limits(pair):

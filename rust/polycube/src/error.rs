@@ -32,7 +32,7 @@ pub enum ErrorKind {
 }
 
 /// The element an error is about. Indices count from 0 in the mesh as read; lines count from 1.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, serde::Serialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, serde::Serialize, bitcode::Encode, bitcode::Decode)]
 #[serde(rename_all = "snake_case")]
 pub enum Place {
     /// A vertex of the mesh.

@@ -17,6 +17,7 @@ mod diagnosis;
 mod front;
 mod note;
 mod report;
+mod state;
 #[cfg(test)]
 mod tests;
 mod untangling;
@@ -32,7 +33,7 @@ pub use report::{Seconds, SimplifyReport};
 pub(crate) use untangling::untangle_morphed;
 
 /// How it is simplified.
-#[derive(Clone, Debug, Default, PartialEq)]
+#[derive(Clone, Debug, Default, PartialEq, bitcode::Encode, bitcode::Decode)]
 pub struct SimplifyOptions {
     /// How the levels find their places.
     pub strategy: Strategy,

@@ -46,6 +46,8 @@ from ._native import (
     simplify,
     structure,
 )
+from .batch import batch
+from .convert import from_meshio, from_pyvista, from_trimesh, to_meshio, to_pyvista, to_trimesh
 from .errors import (
     Cancelled,
     FileError,
@@ -87,9 +89,13 @@ __all__ = [
     "Unsupported",
     "Violation",
     "__version__",
+    "batch",
     "check",
     "check_shape",
     "example",
+    "from_meshio",
+    "from_pyvista",
+    "from_trimesh",
     "make",
     "read",
     "read_labels",
@@ -97,4 +103,7 @@ __all__ = [
     "remesh",
     "simplify",
     "structure",
+    "to_meshio",
+    "to_pyvista",
+    "to_trimesh",
 ]

@@ -3,7 +3,7 @@
 use std::time::Duration;
 
 /// How long the search may take.
-#[derive(Clone, Copy, Debug, PartialEq, serde::Serialize)]
+#[derive(Clone, Copy, Debug, PartialEq, serde::Serialize, bitcode::Encode, bitcode::Decode)]
 pub struct Effort {
     /// Moves tried per level in each of the eight chains; the result is the same for the same number.
     pub steps_per_level: u32,

@@ -69,7 +69,7 @@ pub struct Alignment {
 }
 
 /// What is proven of the least count.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, serde::Serialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, serde::Serialize, bitcode::Encode, bitcode::Decode)]
 pub struct LowerBound {
     /// No valid polycube of this structure counts less.
     pub count: usize,
@@ -80,7 +80,7 @@ pub struct LowerBound {
 }
 
 /// One way to trade blocks for displacement.
-#[derive(Clone, Debug, PartialEq, serde::Serialize)]
+#[derive(Clone, Debug, PartialEq, serde::Serialize, bitcode::Encode, bitcode::Decode)]
 pub struct TradeOff {
     /// What the objective counts.
     pub count: usize,

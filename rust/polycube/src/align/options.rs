@@ -6,7 +6,9 @@ use super::solve::{ExactSolver, LinearSolver, Solver};
 use crate::layout::Objective;
 
 /// How the levels find their places.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, serde::Serialize, serde::Deserialize)]
+#[derive(
+    Clone, Copy, Debug, Default, PartialEq, Eq, serde::Serialize, serde::Deserialize, bitcode::Encode, bitcode::Decode,
+)]
 #[serde(rename_all = "snake_case")]
 pub enum Strategy {
     /// Round every level to the lattice, as standard pipelines do. May break the polycube.
@@ -19,7 +21,9 @@ pub enum Strategy {
 }
 
 /// Who solves the integer problems.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, serde::Serialize, serde::Deserialize)]
+#[derive(
+    Clone, Copy, Debug, Default, PartialEq, Eq, serde::Serialize, serde::Deserialize, bitcode::Encode, bitcode::Decode,
+)]
 #[serde(rename_all = "snake_case")]
 pub enum SolverKind {
     /// Minimum cuts in integer arithmetic; corners that attract each other are kept apart when they would meet.

@@ -5,7 +5,9 @@ use super::separatrices::Separatrices;
 use crate::structure::{Arrangement, Edge, Structure};
 
 /// How coarse a layout is.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, serde::Serialize, serde::Deserialize)]
+#[derive(
+    Clone, Copy, Debug, Default, PartialEq, Eq, serde::Serialize, serde::Deserialize, bitcode::Encode, bitcode::Decode,
+)]
 pub struct Counts {
     /// Patches left by the separatrices traced on the surface alone.
     pub surface_patches: usize,

@@ -17,7 +17,9 @@ pub use separatrices::Separatrices;
 use crate::structure::Arrangement;
 
 /// Which of the three numbers shall be small.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, serde::Serialize, serde::Deserialize)]
+#[derive(
+    Clone, Copy, Debug, Default, PartialEq, Eq, serde::Serialize, serde::Deserialize, bitcode::Encode, bitcode::Decode,
+)]
 #[serde(rename_all = "snake_case")]
 pub enum Objective {
     /// [`Counts::blocks_padded`], for volumes.

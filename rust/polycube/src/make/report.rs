@@ -7,7 +7,7 @@ use crate::mesh::{Cells, Face, Mesh, Point};
 use crate::structure::area_vector;
 
 /// Wall-clock seconds of the stages.
-#[derive(Clone, Copy, Debug, Default, PartialEq, serde::Serialize)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, serde::Serialize, bitcode::Encode, bitcode::Decode)]
 pub struct MakeSeconds {
     /// Finding the loops and drawing the charts.
     pub structure: f64,
@@ -18,7 +18,7 @@ pub struct MakeSeconds {
 }
 
 /// What was made, and how good it is.
-#[derive(Clone, Debug, PartialEq, serde::Serialize)]
+#[derive(Clone, Debug, PartialEq, serde::Serialize, bitcode::Encode, bitcode::Decode)]
 pub struct MakeReport {
     /// Corners of the polycube.
     pub corners: usize,

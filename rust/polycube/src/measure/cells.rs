@@ -9,7 +9,7 @@ use crate::mesh::hexahedron::{EDGES, corner_tetrahedra};
 use crate::mesh::{CellField, Cells, Mesh, Point};
 
 /// Measures of each hexahedron of a mesh beside its scaled Jacobian, which says nothing of sizes.
-#[derive(Clone, Debug, Default, PartialEq)]
+#[derive(Clone, Debug, Default, PartialEq, bitcode::Encode, bitcode::Decode)]
 pub struct CellMeasures {
     /// The longest of the twelve edges over the shortest, at least 1; infinite where one has no length.
     pub edge_ratio: Vec<f64>,
@@ -66,7 +66,7 @@ impl CellMeasures {
 }
 
 /// [`CellMeasures`] of a whole mesh.
-#[derive(Clone, Debug, PartialEq, serde::Serialize)]
+#[derive(Clone, Debug, PartialEq, serde::Serialize, bitcode::Encode, bitcode::Decode)]
 pub struct MeasureSummary {
     /// Longest over shortest edge.
     pub edge_ratio: Spread,
@@ -79,7 +79,7 @@ pub struct MeasureSummary {
 }
 
 /// How one measure is spread over the cells of a mesh.
-#[derive(Clone, Debug, PartialEq, serde::Serialize)]
+#[derive(Clone, Debug, PartialEq, serde::Serialize, bitcode::Encode, bitcode::Decode)]
 pub struct Spread {
     /// The least; 0 for no cell.
     pub min: f64,

@@ -18,7 +18,7 @@ const FLAT: f64 = 1e-12;
 /// These are the two parts of the energies of Degener, Meseth and Klein ("An adaptable surface
 /// parameterization method", 2003) and of Fu, Liu and Guo ("Computing locally injective mappings by
 /// advanced MIPS", 2015). Means are weighted by area or volume in the first mesh.
-#[derive(Clone, Copy, Debug, PartialEq, serde::Serialize)]
+#[derive(Clone, Copy, Debug, PartialEq, serde::Serialize, bitcode::Encode, bitcode::Decode)]
 pub struct Distortion {
     /// Mean of the angle part, at least 1.
     pub angle: f64,

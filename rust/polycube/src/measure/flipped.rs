@@ -6,7 +6,7 @@ use crate::mesh::{Cells, Face, Mesh, Point};
 use nalgebra::Vector3;
 
 /// The elements turned over or flat, ascending.
-#[derive(Clone, Debug, Default, PartialEq, Eq, serde::Serialize)]
+#[derive(Clone, Debug, Default, PartialEq, Eq, serde::Serialize, bitcode::Encode, bitcode::Decode)]
 pub struct Flipped {
     /// Cells of a volume; none for a surface.
     pub cells: Vec<u32>,

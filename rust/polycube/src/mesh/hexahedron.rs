@@ -16,7 +16,7 @@ pub(crate) const EDGES: [[[usize; 2]; 4]; 3] =
 pub(crate) const OCTANTS: [usize; 8] = [0, 1, 3, 2, 4, 5, 7, 6];
 
 /// A face of a hexahedron.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, bitcode::Encode, bitcode::Decode)]
 pub struct HexFace {
     /// The hexahedron.
     pub cell: u32,

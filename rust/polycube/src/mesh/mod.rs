@@ -32,7 +32,7 @@ use std::str::FromStr;
 pub type Point = Point3<f64>;
 
 /// The kinds of cells there are.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord, bitcode::Encode, bitcode::Decode)]
 pub enum CellKind {
     /// Surface of triangles.
     Triangles,

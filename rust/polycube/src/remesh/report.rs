@@ -18,7 +18,7 @@ const MOST_ADVISED: f64 = 1e7;
 pub(super) const MOST_LISTED: usize = 1000;
 
 /// What was done, for people and programs: what [`simplify::SimplifyReport`] says and how good the meshes are.
-#[derive(Clone, Debug, PartialEq, serde::Serialize)]
+#[derive(Clone, Debug, PartialEq, serde::Serialize, bitcode::Encode, bitcode::Decode)]
 pub struct RemeshReport {
     /// What the simplification did, with the seconds of all stages of the remeshing. Scale, displacement and distortion
     /// are those on the even lattice, also where the levels were [`spaced`](Self::spaced) after that.
@@ -76,7 +76,7 @@ pub struct RemeshReport {
 }
 
 /// A hexahedron that is not the right way round.
-#[derive(Clone, Copy, Debug, PartialEq, serde::Serialize)]
+#[derive(Clone, Copy, Debug, PartialEq, serde::Serialize, bitcode::Encode, bitcode::Decode)]
 pub struct InvertedCell {
     /// Its number, from 0.
     pub cell: usize,

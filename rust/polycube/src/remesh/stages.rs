@@ -1,7 +1,7 @@
 //! Where the time of a remeshing goes.
 
 /// Time spent in each stage, in seconds.
-#[derive(Clone, Copy, Debug, Default, PartialEq, serde::Serialize)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, serde::Serialize, bitcode::Encode, bitcode::Decode)]
 pub struct Stages {
     /// Simplifying, and placing the levels at the wanted size.
     pub simplify: f64,

@@ -12,7 +12,7 @@ use std::collections::HashMap;
 use std::fmt;
 
 /// What was done to an input. Written, for people and in reports, as a sentence.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, bitcode::Encode, bitcode::Decode)]
 pub enum Repair {
     /// So many vertices gave way to others at the same place.
     Welded(usize),

@@ -5,7 +5,7 @@ use crate::repair::Repair;
 use std::fmt;
 
 /// What was not possible or not as asked. Written, for people and in reports, as a sentence.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, bitcode::Encode, bitcode::Decode)]
 pub enum Note {
     /// Rounding to the lattice made the surface touch or cross itself in so many places.
     Broken(usize),
@@ -78,7 +78,7 @@ pub enum Note {
 }
 
 /// What another simplicity would give.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, bitcode::Encode, bitcode::Decode)]
 pub struct Alternative {
     /// Blocks with padding, or patches of a surface alone.
     pub count: usize,
@@ -91,7 +91,7 @@ pub struct Alternative {
 }
 
 /// Why a limit is not kept.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, bitcode::Encode, bitcode::Decode)]
 pub enum Cause {
     /// Nothing that was found keeps it.
     Search,

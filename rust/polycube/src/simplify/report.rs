@@ -11,7 +11,7 @@ use crate::repair::Repaired;
 use crate::structure::{Deviation, Polycube};
 
 /// What was done, for people and programs.
-#[derive(Clone, Debug, PartialEq, serde::Serialize)]
+#[derive(Clone, Debug, PartialEq, serde::Serialize, bitcode::Encode, bitcode::Decode)]
 pub struct SimplifyReport {
     /// How the levels found their places.
     pub strategy: Strategy,
@@ -155,7 +155,7 @@ impl SimplifyReport {
 }
 
 /// Time spent in each stage, in seconds.
-#[derive(Clone, Copy, Debug, Default, PartialEq, serde::Serialize)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, serde::Serialize, bitcode::Encode, bitcode::Decode)]
 pub struct Seconds {
     /// Reading the files.
     pub read: f64,

@@ -4,7 +4,9 @@ use crate::mesh::{Face, Point};
 use nalgebra::Vector3;
 
 /// One of +X −X +Y −Y +Z −Z, numbered 0 to 5 as in the label files of this field.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash, serde::Serialize)]
+#[derive(
+    Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash, serde::Serialize, bitcode::Encode, bitcode::Decode,
+)]
 #[serde(transparent)]
 pub struct Label(u8);
 

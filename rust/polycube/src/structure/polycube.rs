@@ -5,7 +5,7 @@ use super::{Placement, Structure, Surface};
 use crate::range::Range;
 
 /// How far a mesh may be from a polycube and still be read as one.
-#[derive(Clone, Copy, Debug, PartialEq, serde::Serialize)]
+#[derive(Clone, Copy, Debug, PartialEq, serde::Serialize, bitcode::Encode, bitcode::Decode)]
 pub struct Tolerance {
     /// Largest angle between a face and the nearest axis, in degrees; 0 to 45.
     pub degrees: f64,
@@ -35,7 +35,7 @@ impl Tolerance {
 }
 
 /// How far the mesh is from a polycube.
-#[derive(Clone, Copy, Debug, Default, PartialEq, serde::Serialize)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, serde::Serialize, bitcode::Encode, bitcode::Decode)]
 pub struct Deviation {
     /// Largest angle between a face and the axis of its label, in degrees.
     pub degrees: f64,

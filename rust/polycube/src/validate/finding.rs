@@ -5,7 +5,7 @@ use crate::mesh::{Face, Mesh, Point};
 use crate::structure::Violation;
 
 /// Which of the two meshes a finding is about.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, serde::Serialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, serde::Serialize, bitcode::Encode, bitcode::Decode)]
 #[serde(rename_all = "snake_case")]
 pub enum Subject {
     /// The polycube.

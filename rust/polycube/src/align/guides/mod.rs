@@ -33,7 +33,7 @@ use std::collections::BTreeSet;
 /// assert!(guided.report.valid);
 /// # Ok::<(), polycube::Error>(())
 /// ```
-#[derive(Clone, Debug, Default, PartialEq, serde::Serialize, serde::Deserialize)]
+#[derive(Clone, Debug, Default, PartialEq, serde::Serialize, serde::Deserialize, bitcode::Encode, bitcode::Decode)]
 #[serde(default, deny_unknown_fields)]
 pub struct Guides {
     /// Facets that must not move: the plane of each lies where the input has it, times the scale, rounded to the
@@ -61,7 +61,7 @@ pub struct Guides {
 ///
 /// The input need not be exact: every corner must have a mirror image within a quarter of the shortest edge, and edges
 /// and facets must correspond.
-#[derive(Clone, Copy, Debug, PartialEq, serde::Serialize, serde::Deserialize)]
+#[derive(Clone, Copy, Debug, PartialEq, serde::Serialize, serde::Deserialize, bitcode::Encode, bitcode::Decode)]
 #[serde(deny_unknown_fields)]
 pub struct Symmetry {
     /// The axis that the plane is perpendicular to: 0, 1 or 2 for X, Y or Z.

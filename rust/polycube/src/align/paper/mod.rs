@@ -24,7 +24,7 @@ use constraints::structural;
 use pairs::{Linked, candidates, near_corners};
 
 /// One round of Algorithm 1.
-#[derive(Clone, Debug, PartialEq, serde::Serialize)]
+#[derive(Clone, Debug, PartialEq, serde::Serialize, bitcode::Encode, bitcode::Decode)]
 pub struct Round {
     /// The weight of the attraction to the input.
     pub lambda: f64,

@@ -4,7 +4,7 @@ use crate::mesh::HexFace;
 use crate::structure::Label;
 
 /// A face on the outside of a hexahedral mesh.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, bitcode::Encode, bitcode::Decode)]
 pub struct BoundaryFace {
     /// The face.
     pub face: HexFace,

@@ -8,7 +8,7 @@ use crate::simplify::{Alternative, Note, Simplified};
 use std::collections::BTreeMap;
 
 /// What is wrong with a mesh.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, serde::Serialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, serde::Serialize, bitcode::Encode, bitcode::Decode)]
 #[serde(rename_all = "snake_case")]
 pub enum Failure {
     /// The map of its surface is folded.
@@ -22,7 +22,7 @@ pub enum Failure {
 }
 
 /// A point of the front that was meshed, and what came of it.
-#[derive(Clone, Debug, PartialEq, serde::Serialize)]
+#[derive(Clone, Debug, PartialEq, serde::Serialize, bitcode::Encode, bitcode::Decode)]
 pub struct TriedPoint {
     /// Its number on the front, from 0 for the fewest blocks.
     pub point: usize,
