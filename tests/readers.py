@@ -22,6 +22,7 @@ import numpy
 import plyfile
 import pyvista
 from block_readers import with_block_mesh, with_blocks
+from format_readers import all_formats
 from patch_test import with_ccx
 from reading import FACES, FOAM, Union, check, gather, sides
 from solver_measures import all_measures, write_control
@@ -42,6 +43,7 @@ def polycube(*arguments):
     command = [str(a) for a in (POLYCUBE, *arguments)]
     done = subprocess.run(command, capture_output=True, text=True, timeout=600)
     check(done.returncode in (0, 4), f"{' '.join(command)}\n{done.stdout}{done.stderr}")
+    return done.stdout
 
 
 def count_blocks(hexes):
@@ -290,6 +292,19 @@ def grid(size, solid):
     return [[number(x + i, y + j, z + k) for i, j, k in corners] for x, y, z in cells if solid(x, y, z)]
 
 
+def polycubes(examples, folder):
+    """A polycube of each kind of cells."""
+    quads = meshio.read(examples / "ring.polycube.obj")
+    halves = numpy.concatenate([quads.cells_dict["quad"][:, corners] for corners in ((0, 1, 2), (0, 2, 3))])
+    meshio.write(folder / "triangles.vtk", meshio.Mesh(quads.points, [("triangle", halves)]))
+    points = [(x, y, z) for z in range(3) for y in range(3) for x in range(3)]
+    hexes = grid(2, lambda x, y, z: True)
+    meshio.write(folder / "hexes.vtk", meshio.Mesh(numpy.array(points, float), [("hexahedron", hexes)]))
+    volume = examples / "stepped-l.polycube.mesh"
+    files = (folder / "triangles.vtk", examples / "ring.polycube.obj", volume, folder / "hexes.vtk")
+    return dict(zip(("triangle", "quad", "tetra", "hexahedron"), files))
+
+
 def main(data):
     # What is known without a program: one block in a cube, three in an L.
     check(count_blocks(grid(3, lambda x, y, z: True)) == 1, "a cube has one block")
@@ -299,6 +314,7 @@ def main(data):
     with tempfile.TemporaryDirectory() as folder:
         folder = pathlib.Path(folder)
         polycube("demo", "-q", "-o", folder)
+        all_formats(polycube, polycubes(folder / "examples", folder), folder)
         for name in ("stepped-l", "ring"):
             pair = folder / "examples" / name
             volume_pair(name, f"{pair}.shape.mesh", f"{pair}.polycube.mesh", 800, folder / name)

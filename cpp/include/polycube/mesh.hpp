@@ -45,7 +45,8 @@ struct CellField {
     std::variant<std::vector<double>, std::vector<std::int32_t>> values;
 };
 
-/// Reads .obj .off .ply .stl (surfaces) .mesh .vtk .vtu (all cells); the extension tells the format.
+/// Reads .obj .off .ply .stl .vtp (surfaces) .mesh .meshb .vtk .vtu .msh .inp (all cells); the extension tells the
+/// format.
 ///
 /// Vertices keep their order, used or not. Where a file holds volume and surface, the volume is taken. Polygons that
 /// are not all quadrilaterals are split into triangles. Paths are UTF-8.

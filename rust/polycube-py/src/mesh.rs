@@ -98,12 +98,12 @@ impl PyMesh {
         numpy::PyArray1::from_vec(py, flat).call_method1("reshape", (-1, columns))
     }
 
-    /// Writes the mesh whole or not at all. The extension tells the format: obj, off, ply, stl (surfaces), mesh, vtk,
-    /// vtu.
+    /// Writes the mesh whole or not at all. The extension tells the format: obj, off, ply, stl, vtp (surfaces),
+    /// mesh, meshb, vtk, vtu, msh, inp.
     ///
     /// Args:
     ///     path: the file.
-    ///     fields: numbers per cell by name, (m,) integers or floats; held by ply, vtk and vtu; mesh holds `label`
+    ///     fields: numbers per cell by name, (m,) integers or floats; held by ply, vtk, vtu and vtp; mesh holds `label`
     ///         or else `block_id`.
     ///
     /// Raises:
@@ -235,7 +235,7 @@ pub fn labels(value: &Bound<'_, PyAny>) -> PyResult<Vec<i8>> {
     }
 }
 
-/// Reads a mesh. The extension tells the format: obj, off, ply, stl, mesh, vtk or vtu.
+/// Reads a mesh. The extension tells the format: obj, off, ply, stl, vtp (surfaces), mesh, meshb, vtk, vtu, msh or inp.
 ///
 /// Raises:
 ///     FileError: the file cannot be read.

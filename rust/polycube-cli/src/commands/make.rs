@@ -58,7 +58,8 @@ pub struct Args {
     #[command(flatten)]
     pub labels: LabelsArg,
 
-    /// Format of shape and polycube: obj, off, ply, stl, mesh, vtk or vtu [default: as the input]
+    /// Format of shape and polycube: obj, off, ply, stl, mesh, meshb, vtk, vtu, vtp, msh or inp
+    /// [default: as the input]
     #[arg(long, value_name = "EXT", value_parser = format)]
     pub format: Option<Format>,
 

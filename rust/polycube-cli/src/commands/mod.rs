@@ -30,7 +30,8 @@ Exit codes:
        is folded in places
   130  cancelled with Ctrl-C; no file is left half written
 
-Mesh files: .obj .off .ply .stl (surfaces), .mesh .vtk .vtu (surfaces, tetrahedra, hexahedra).
+Mesh files: .obj .off .ply .stl .vtp (surfaces), .mesh .meshb .vtk .vtu .msh .inp (surfaces,
+tetrahedra, hexahedra).
 Vertices, faces and cells are numbered from 0.";
 
 /// Turn a polycube into a coarser one: align its corners on the integer lattice, keep its topology,

@@ -35,8 +35,8 @@ impl Formats {
         for (_, &format) in asked.iter().enumerate().filter(|&(i, format)| !asked[..i].contains(format)) {
             match format {
                 OutputFormat::Mesh(Format::Stl) => return Err(no_stl().into()),
-                OutputFormat::Solver(solver) if surface => return Err(no_surface(solver).into()),
                 OutputFormat::Mesh(format) => formats.extra.push(format),
+                OutputFormat::Solver(solver) if surface => formats.extra.push(without_groups(solver)?),
                 OutputFormat::Solver(solver) => formats.solvers.push(solver),
             }
         }
@@ -46,7 +46,12 @@ impl Formats {
 
 fn no_stl() -> Error {
     Error::new(ErrorKind::Option, "a .stl file cannot hold quadrilaterals or hexahedra")
-        .remedy(format!("choose --format from obj, off, ply, mesh, vtk, vtu, {}", solver_formats()))
+        .remedy(format!("choose --format from obj, off, ply, mesh, meshb, vtk, vtu, {}", solver_formats()))
+}
+
+/// The format of this name that surfaces are written in, without groups.
+fn without_groups(format: SolverFormat) -> Result<Format> {
+    format.extension().parse().map_err(|_: Error| no_surface(format).into())
 }
 
 fn no_surface(format: SolverFormat) -> Error {

@@ -116,8 +116,8 @@ pub struct Args {
     #[arg(long, value_name = "PERCENT", value_parser = percent, default_value_t = 0.5)]
     pub max_hausdorff: f64,
 
-    /// Write the mesh in this format, too (may be repeated): obj, off, ply, mesh, vtk, vtu; msh, inp, su2, foam;
-    /// json, xyz or blockmesh
+    /// Write the mesh in this format, too (may be repeated): obj, off, ply, mesh, meshb, vtk, vtu, vtp; msh, inp, su2,
+    /// foam; json, xyz or blockmesh
     #[arg(long, value_name = "EXT", value_parser = output_format)]
     pub format: Vec<OutputFormat>,
 

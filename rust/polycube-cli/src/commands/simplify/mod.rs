@@ -83,7 +83,8 @@ pub struct Args {
     #[arg(long)]
     pub pareto: bool,
 
-    /// Format of the simplified polycube: obj, off, ply, stl, mesh, vtk or vtu [default: as the input]
+    /// Format of the simplified polycube: obj, off, ply, stl, mesh, meshb, vtk, vtu, vtp, msh or inp
+    /// [default: as the input]
     #[arg(long, value_name = "EXT", value_parser = format)]
     pub format: Option<Format>,
 
