@@ -49,8 +49,8 @@ fn all_files_are_there_and_read_back() {
 #[test]
 fn a_surface_alone_has_no_hexahedra() {
     let sandbox = sandbox(CellKind::Triangles, "obj");
-    let line = "remesh shape.obj --polycube cube.obj -o out --surface-only --quiet --max-hausdorff 5 --format ply --format msh";
-    assert_eq!(sandbox.ok(line), "");
+    let line = "remesh shape.obj --polycube cube.obj -o out --surface-only --quiet --max-hausdorff 5";
+    assert_eq!(sandbox.ok(&format!("{line} --format ply --format msh")), "");
     let expected =
         ["layout.obj", "polycube.labels", "polycube.obj", "quads.msh", "quads.obj", "quads.ply", "report.json"];
     assert_eq!(sandbox.names("out"), expected);
