@@ -83,7 +83,7 @@ std::vector<std::uint8_t> write_mesh_bytes(const std::string& extension, const M
                                            const std::vector<CellField>& fields = {});
 
 /// Reads one label a line for each of `face_count` boundary faces: 0 to 5 for +X -X +Y -Y +Z -Z, -1 for "by the
-/// normal".
+/// normal"; or those numbers of the faces in a mesh file (references, cell data, physical groups, materials).
 ///
 /// @throws Error io, parse (with the line), mismatch (another number of labels).
 std::vector<std::int8_t> read_labels(const std::string& path, std::size_t face_count);

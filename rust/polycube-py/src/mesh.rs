@@ -261,7 +261,8 @@ pub fn read_pair(py: Python<'_>, shape: PathBuf, polycube: PathBuf) -> PyResult<
 /// Reads the label of each boundary face of `polycube`, one a line of the file: (f,) int8.
 ///
 /// Args:
-///     path: the file of labels.
+///     path: the file of labels, or a mesh file that numbers its faces: references in MEDIT's, data of cells in VTK's,
+///         physical groups in Gmsh's, names of materials as "label_3" or "plus_x" in OBJ.
 ///     polycube: the mesh.
 ///     source: the file that the mesh was read from. With it, labels may also be given one for each of its faces before
 ///         polygons were cut into triangles, or for each face that it lists beside its cells. Four for each
@@ -270,7 +271,7 @@ pub fn read_pair(py: Python<'_>, shape: PathBuf, polycube: PathBuf) -> PyResult<
 ///         "1:+X-X+Y-Y+Z-Z" where numbers count from 1.
 ///
 /// Raises:
-///     ParseError: a line is no number from -1 to 5; `elements` has the line.
+///     ParseError: a line is no number from -1 to 5; `elements` has the line. Or the faces of a mesh file have none.
 ///     Mismatch: there are not as many labels as faces.
 ///     InvalidOption: `order` is none, or does not have a number of the file.
 #[pyfunction]

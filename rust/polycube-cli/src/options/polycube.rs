@@ -29,7 +29,8 @@ pub struct LabelsArg {
     /// Label file: one integer a line, 0 to 5 for +X -X +Y -Y +Z -Z, -1 for "by the normal"; one for each boundary
     /// face (of a surface in the order of the file; of a volume cell by cell, in VTK's order of a cell's faces), for
     /// each face of the file before polygons were cut, for each face that a file of a volume lists beside its cells, or
-    /// four for each tetrahedron, for the faces opposite to its corners
+    /// four for each tetrahedron, for the faces opposite to its corners. Or a mesh file that numbers its faces so, by
+    /// references, data of cells, physical groups or names of materials
     #[arg(long = "labels", id = "labels", value_name = "FILE", value_hint = ValueHint::FilePath)]
     pub file: Option<PathBuf>,
 

@@ -4,19 +4,23 @@ use super::file::{read_file, write_atomically};
 use super::label_order::LabelOrder;
 use super::scan::{number, quoted, without_mark};
 use super::soup::Soup;
-use super::{format_of, formats};
+use super::{Format, format_of, formats};
 use crate::error::{Error, ErrorKind, Place, Result};
 use crate::mesh::{Cells, Face, Mesh};
 use std::collections::HashMap;
 use std::path::Path;
 
-/// Reads one label per face from a text file of one integer in `-1..=5` per line.
+/// Reads one label per face from a text file of one integer in `-1..=5` per line, or from a mesh file whose faces have
+/// such numbers: references in MEDIT's, cell data in VTK's (an array named `label` or the like, or the only one of
+/// integers), physical groups in Gmsh's; in OBJ and Abaqus' materials, groups or element sets whose names end with the
+/// number or are those of a direction (`plus_x`, `-Y`).
 ///
 /// # Errors
 /// [`ErrorKind::Io`] when the file cannot be read, [`ErrorKind::Parse`] with the line when a line is not
 /// a label, [`ErrorKind::Mismatch`] when there are not `face_count` of them.
 pub fn read_labels(path: &Path, face_count: usize) -> Result<Vec<i8>> {
-    parse_labels(&read_file(path)?, face_count).map_err(|e| e.in_file(path.display()))
+    let labels = read_numbers(path, 5).and_then(|labels| counted(labels, face_count));
+    labels.map_err(|e| e.in_file(path.display()))
 }
 
 /// Reads labels as [`read_labels`] does, from the bytes of the file.
@@ -24,7 +28,10 @@ pub fn read_labels(path: &Path, face_count: usize) -> Result<Vec<i8>> {
 /// # Errors
 /// As [`read_labels`], but never [`ErrorKind::Io`].
 pub fn parse_labels(bytes: &[u8], face_count: usize) -> Result<Vec<i8>> {
-    let labels = numbers(bytes, 5)?;
+    counted(numbers(bytes, 5)?, face_count)
+}
+
+fn counted(labels: Vec<i8>, face_count: usize) -> Result<Vec<i8>> {
     if labels.len() != face_count {
         let message = format!("{} labels for {face_count} faces", labels.len());
         return Err(
@@ -34,8 +41,8 @@ pub fn parse_labels(bytes: &[u8], face_count: usize) -> Result<Vec<i8>> {
     Ok(labels)
 }
 
-/// Reads the label of each boundary face of `mesh` from a text file of one integer a line, as many as one of these has
-/// of them, in its order:
+/// Reads the label of each boundary face of `mesh` from a file as [`read_labels`] takes it, which has as many as one of
+/// these, in its order; a mesh file has those of the faces that it lists:
 /// - one for each boundary face ([`Cells::boundary`]): the faces of a surface in the order of the file, those of a
 ///   volume cell by cell and in VTK's order of the faces of a cell;
 /// - one for each face of `source`, the file that the mesh was read from, before its polygons were cut into triangles;
@@ -49,7 +56,8 @@ pub fn parse_labels(bytes: &[u8], face_count: usize) -> Result<Vec<i8>> {
 /// Those of [`read_labels`] and of reading `source`; [`ErrorKind::Option`] for a number that `order` does not have.
 pub fn read_labels_of(mesh: &Mesh, source: Option<&Path>, path: &Path, order: Option<&LabelOrder>) -> Result<Vec<i8>> {
     let here = |error: Error| error.in_file(path.display());
-    let numbers = numbers(&read_file(path)?, order.map_or(6, |_| i8::MAX)).map_err(here)?;
+    let numbers = read_numbers(path, order.map_or(6, |_| i8::MAX)).map_err(here)?;
+    let source = if Format::from_path(path).is_ok() { Some(path) } else { source };
     let numbers = for_faces(mesh, source, numbers).map_err(here)?;
     order.map_or(Ok(numbers.clone()), |order| order.apply(&numbers)).map_err(here)
 }
@@ -130,6 +138,32 @@ fn by_corners(boundary: &[Face], known: impl Iterator<Item = (impl AsRef<[u32]>,
     let known: HashMap<[u32; 4], i8> = known.map(|(corners, number)| (key(corners.as_ref()), number)).collect();
     let number = |face: &Face| known.get(&key(face.vertices())).copied().unwrap_or(-1);
     boundary.iter().map(number).collect()
+}
+
+/// The numbers, from −1 to `largest`, in a text or of the faces in a mesh file.
+fn read_numbers(path: &Path, largest: i8) -> Result<Vec<i8>> {
+    let bytes = read_file(path)?;
+    Format::from_path(path).map_or_else(|_| numbers(&bytes, largest), |format| tags(format, &bytes, largest))
+}
+
+/// The numbers of the faces in a mesh file.
+fn tags(format: Format, bytes: &[u8], largest: i8) -> Result<Vec<i8>> {
+    let tags: Vec<Option<i64>> = formats::read_tagged(format, bytes)?.tags_of_polygons().collect();
+    if tags.iter().all(Option::is_none) {
+        let message = format!("the faces in this .{format} file have no numbers");
+        return Err(Error::new(ErrorKind::Parse, message).remedy(
+            "give a text file of one label a line; or references in MEDIT's files, an array `label` of the cells in \
+             VTK's, physical groups in Gmsh's, materials or groups with names as `label_3` or `plus_x` in OBJ",
+        ));
+    }
+    let label = |(face, tag): (u32, Option<i64>)| {
+        let label = i8::try_from(tag.unwrap_or(-1)).ok().filter(|label| (-1..=largest).contains(label));
+        label.ok_or_else(|| {
+            let message = format!("{} is no label", tag.unwrap_or_default());
+            Error::new(ErrorKind::Parse, message).at(Place::Face(face)).remedy("number the faces from -1 to 5")
+        })
+    };
+    (0..).zip(tags).map(label).collect()
 }
 
 /// One number from −1 to `largest` a line.

@@ -166,6 +166,23 @@ pub(super) fn number<T: std::str::FromStr>(word: &[u8]) -> Option<T> {
     std::str::from_utf8(word).ok()?.parse().ok()
 }
 
+/// The label, 0 to 5, of a direction that a name of a group stands for, as `plus_x` and `-Y` do, or else the number
+/// that it ends with, as in `label_3`.
+pub(super) fn number_in(name: &[u8]) -> Option<i64> {
+    const DIRECTIONS: [[&[u8]; 2]; 6] = [
+        [b"plus_x", b"+x"],
+        [b"minus_x", b"-x"],
+        [b"plus_y", b"+y"],
+        [b"minus_y", b"-y"],
+        [b"plus_z", b"+z"],
+        [b"minus_z", b"-z"],
+    ];
+    let name = name.trim_ascii().to_ascii_lowercase();
+    let direction = DIRECTIONS.iter().position(|names| names.contains(&name.as_slice()));
+    let digits = name.iter().rev().take_while(|b| b.is_ascii_digit()).count();
+    direction.map(|label| label as i64).or_else(|| number(&name[name.len() - digits..]))
+}
+
 /// A word for an error message: short, and without control characters.
 pub(super) fn quoted(word: &[u8]) -> String {
     let text = String::from_utf8_lossy(&word[..word.len().min(40)]);

@@ -17,6 +17,8 @@ struct Entry {
     /// Line in the file, or 0 where lines mean nothing.
     line: usize,
     end: usize,
+    /// A number that the file gives it: a reference, a group, a material.
+    tag: Option<i64>,
 }
 
 /// Points and polygons, tetrahedra and hexahedra over them, in the order of the file.
@@ -32,7 +34,7 @@ impl Soup {
     fn add(&mut self, shape: Shape, corners: &[u32], line: usize) {
         self.corners.extend_from_slice(corners);
         let end = self.corners.len();
-        self.entries.push(Entry { shape, line, end });
+        self.entries.push(Entry { shape, line, end, tag: None });
     }
 
     /// Adds a face. `line` is where the file says so, 0 where lines mean nothing.
@@ -45,6 +47,18 @@ impl Soup {
         }
         self.add(Shape::Polygon, corners, line);
         Ok(())
+    }
+
+    /// Gives what was added last a number.
+    pub(super) fn tag(&mut self, tag: Option<i64>) {
+        if let Some(entry) = self.entries.last_mut() {
+            entry.tag = tag;
+        }
+    }
+
+    /// The number of each face that the file lists, if it has one.
+    pub(super) fn tags_of_polygons(&self) -> impl Iterator<Item = Option<i64>> {
+        self.entries.iter().filter(|entry| entry.shape == Shape::Polygon).map(|entry| entry.tag)
     }
 
     /// Adds a tetrahedron.

@@ -1,7 +1,7 @@
 //! The nodes and elements of Abaqus' and CalculiX' `.inp`; all else in it is passed over.
 
 use crate::error::{Error, ErrorKind, Place, Result};
-use crate::mesh::io::scan::{number, quoted, without_mark};
+use crate::mesh::io::scan::{number, number_in, quoted, without_mark};
 use crate::mesh::io::soup::Soup;
 use crate::mesh::io::text::Text;
 use crate::mesh::{CellKind, Mesh, Point};
@@ -20,7 +20,8 @@ pub(super) fn read(bytes: &[u8]) -> Result<Soup> {
 #[derive(Clone, Copy, Default)]
 enum Section {
     Nodes,
-    Elements(Kind),
+    /// Of a kind, in a set whose name has this number.
+    Elements(Kind, Option<i64>),
     #[default]
     Other,
 }
@@ -62,7 +63,7 @@ impl File {
         }
         match self.section {
             Section::Nodes => self.node(line).map_err(here),
-            Section::Elements(kind) => self.element(kind, line, number, was_continued).map_err(here),
+            Section::Elements(kind, set) => self.element((kind, set), line, number, was_continued).map_err(here),
             Section::Other => Ok(()),
         }
     }
@@ -85,7 +86,7 @@ impl File {
     }
 
     /// Takes a line of an element, which may be one of several.
-    fn element(&mut self, kind: Kind, line: &[u8], at: usize, was_continued: bool) -> Result<()> {
+    fn element(&mut self, (kind, set): (Kind, Option<i64>), line: &[u8], at: usize, was_continued: bool) -> Result<()> {
         let corners = match kind {
             Kind::Nothing => return Ok(()),
             Kind::Face(n) => n,
@@ -113,6 +114,7 @@ impl File {
             (Kind::Hexahedron, &[a, b, c, d, e, f, g, h]) => self.soup.hexahedron([a, b, c, d, e, f, g, h], at),
             _ => self.soup.polygon(&vertices, at)?,
         }
+        self.soup.tag(set);
         Ok(())
     }
 }
@@ -139,16 +141,22 @@ fn section(line: &[u8]) -> Result<Section> {
     match parts.next().unwrap_or_default() {
         b"*NODE" => Ok(Section::Nodes),
         b"*ELEMENT" => {
-            let name = parts.find_map(|part| {
-                let mut sides = part.splitn(2, |&b| b == b'=').map(<[u8]>::trim_ascii);
-                (sides.next() == Some(b"TYPE")).then(|| sides.next()).flatten()
-            });
+            let all: Vec<&[u8]> = parts.collect();
+            let name = parameter(&all, b"TYPE");
             let name = name.ok_or_else(|| Error::new(ErrorKind::Parse, "elements without a type"))?;
-            Ok(Section::Elements(kind(name)?))
+            Ok(Section::Elements(kind(name)?, parameter(&all, b"ELSET").and_then(number_in)))
         }
         b"*INCLUDE" => Err(Error::new(ErrorKind::Unsupported, "the file includes another").remedy("put them into one")),
         _ => Ok(Section::Other),
     }
+}
+
+/// What follows the name of a parameter of a keyword.
+fn parameter<'a>(all: &[&'a [u8]], name: &[u8]) -> Option<&'a [u8]> {
+    all.iter().find_map(|part| {
+        let at = part.iter().position(|&b| b == b'=')?;
+        (part[..at].trim_ascii() == name).then(|| part[at + 1..].trim_ascii())
+    })
 }
 
 /// What is made of elements of a type, as C3D8R.

@@ -1,4 +1,4 @@
-//! Gmsh's `.msh`, versions 2.2 and 4.1, as text or binary. Points and lines are passed over; groups are ignored.
+//! Gmsh's `.msh`, versions 2.2 and 4.1, as text or binary. Points and lines are passed over.
 
 use crate::error::{Error, ErrorKind, Result};
 use crate::mesh::io::scalar::{Endian, Scalar};
@@ -15,6 +15,7 @@ pub(super) fn read(bytes: &[u8]) -> Result<Soup> {
         let name = word.strip_prefix(b"$").ok_or_else(|| file.scanner.unexpected("a section, as $Nodes", word))?;
         file.scanner.rest_of_line();
         match (name, file.version) {
+            (b"Entities", _) => file.entities()?,
             (b"Nodes", Version::Two) => file.nodes_2()?,
             (b"Nodes", Version::Four) => file.nodes_4()?,
             (b"Elements", Version::Two) => file.elements_2()?,
@@ -40,6 +41,8 @@ struct File<'a> {
     binary: Option<Endian>,
     /// Which vertex a node is.
     vertices: HashMap<i64, u32>,
+    /// The first physical group of the entities that are in any, by their dimensions and tags.
+    groups: HashMap<(i64, i64), i64>,
     soup: Soup,
 }
 
@@ -64,7 +67,7 @@ impl<'a> File<'a> {
         let one = if is_binary { scanner.take(4, "the number 1 that tells the order of bytes")? } else { &[] };
         let binary = is_binary.then(|| if one == 1_i32.to_be_bytes() { Endian::Big } else { Endian::Little });
         scanner.past(b"$EndMeshFormat")?;
-        Ok(Self { scanner, version, binary, vertices: HashMap::new(), soup: Soup::default() })
+        Ok(Self { scanner, version, binary, vertices: HashMap::new(), groups: HashMap::new(), soup: Soup::default() })
     }
 
     fn number(&mut self, scalar: Scalar, endian: Endian, what: &str) -> Result<f64> {
@@ -110,6 +113,37 @@ impl<'a> File<'a> {
             return Err(self.scanner.error(format!("a second node {tag}")).remedy("number the nodes from 1 on"));
         }
         self.soup.points.push(point);
+        Ok(())
+    }
+
+    fn entities(&mut self) -> Result<()> {
+        let mut counts = [0; 4];
+        for count in &mut counts {
+            *count = self.size("the number of entities")?;
+        }
+        for (dimension, count) in (0..).zip(counts) {
+            for _ in 0..count {
+                self.entity(dimension)?;
+            }
+        }
+        Ok(())
+    }
+
+    fn entity(&mut self, dimension: i64) -> Result<()> {
+        let tag = self.integer("the tag of an entity")?;
+        // A point, or the bounds of what is larger.
+        for _ in 0..if dimension == 0 { 3 } else { 6 } {
+            self.real()?;
+        }
+        for place in 0..self.size("the number of groups")? {
+            let group = self.integer("a group")?;
+            if place == 0 {
+                self.groups.insert((dimension, tag), group);
+            }
+        }
+        for _ in 0..if dimension == 0 { 0 } else { self.size("the number of entities around")? } {
+            self.integer("an entity")?;
+        }
         Ok(())
     }
 
@@ -169,10 +203,12 @@ impl<'a> File<'a> {
                 if self.binary.is_some() {
                     self.integer("an element")?;
                 }
+                let mut group = None;
                 for _ in 0..tags {
-                    self.integer("a tag")?;
+                    let tag = self.integer("a tag")?;
+                    group = group.or(Some(tag));
                 }
-                self.element(kind, Self::integer)?;
+                self.element(kind, group, Self::integer)?;
                 read += 1;
             }
         }
@@ -182,20 +218,25 @@ impl<'a> File<'a> {
     fn elements_4(&mut self) -> Result<()> {
         let blocks = self.header()?;
         for _ in 0..blocks {
-            self.integer("a dimension")?;
-            self.integer("the tag of an entity")?;
+            let entity = (self.integer("a dimension")?, self.integer("the tag of an entity")?);
+            let group = self.groups.get(&entity).copied().or(Some(entity.1));
             let kind = self.integer("the type of an element")?;
             let count = self.size("the number of elements")?;
             for _ in 0..count {
                 self.size("an element")?;
-                self.element(kind, Self::size)?;
+                self.element(kind, group, Self::size)?;
             }
         }
         Ok(())
     }
 
-    /// Reads the nodes of an element of the type `kind`, each a `number`.
-    fn element(&mut self, kind: i64, number: impl Fn(&mut Self, &str) -> Result<i64>) -> Result<()> {
+    /// Reads the nodes of an element of the type `kind`, which is in a group, each a `number`.
+    fn element(
+        &mut self,
+        kind: i64,
+        group: Option<i64>,
+        number: impl Fn(&mut Self, &str) -> Result<i64>,
+    ) -> Result<()> {
         let mut corners = [0; 8];
         let corners = &mut corners[..nodes_of(kind)?];
         for corner in &mut *corners {
@@ -209,8 +250,9 @@ impl<'a> File<'a> {
             [_, _, _, _] if kind == QUADRANGLE => self.soup.polygon(corners, line)?,
             [a, b, c, d] => self.soup.tetrahedron([a, b, c, d], line),
             [a, b, c, d, e, f, g, h] => self.soup.hexahedron([a, b, c, d, e, f, g, h], line),
-            _ => {}
+            _ => return Ok(()),
         }
+        self.soup.tag(group);
         Ok(())
     }
 }

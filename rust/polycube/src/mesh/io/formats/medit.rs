@@ -1,4 +1,4 @@
-//! MEDIT `.mesh` as text: sections in any order; references are ignored when read.
+//! MEDIT `.mesh` as text: sections in any order; references of vertices are ignored when read.
 
 use crate::error::{Error, ErrorKind, Result};
 use crate::mesh::io::field::{CellField, FieldValues};
@@ -31,13 +31,13 @@ fn section(keyword: &[u8], scanner: &mut Scanner, soup: &mut Soup) -> Result<()>
     match keyword.to_ascii_lowercase().as_slice() {
         b"dimension" => dimension(scanner),
         b"vertices" => vertices(scanner, soup),
-        b"triangles" => cells(scanner, |c: &[u32; 3], line| soup.polygon(c, line)),
-        b"quadrilaterals" => cells(scanner, |c: &[u32; 4], line| soup.polygon(c, line)),
-        b"tetrahedra" => cells(scanner, |c, line| {
+        b"triangles" => cells(scanner, soup, |soup, c: &[u32; 3], line| soup.polygon(c, line)),
+        b"quadrilaterals" => cells(scanner, soup, |soup, c: &[u32; 4], line| soup.polygon(c, line)),
+        b"tetrahedra" => cells(scanner, soup, |soup, c, line| {
             soup.tetrahedron(*c, line);
             Ok(())
         }),
-        b"hexahedra" | b"hexaedra" => cells(scanner, |c, line| {
+        b"hexahedra" | b"hexaedra" => cells(scanner, soup, |soup, c, line| {
             soup.hexahedron(*c, line);
             Ok(())
         }),
@@ -68,15 +68,19 @@ fn vertices(scanner: &mut Scanner, soup: &mut Soup) -> Result<()> {
     Ok(())
 }
 
-fn cells<const N: usize>(scanner: &mut Scanner, mut add: impl FnMut(&[u32; N], usize) -> Result<()>) -> Result<()> {
+fn cells<const N: usize>(
+    scanner: &mut Scanner,
+    soup: &mut Soup,
+    add: impl Fn(&mut Soup, &[u32; N], usize) -> Result<()>,
+) -> Result<()> {
     let count = scanner.count("the number of cells")?;
     for _ in 0..count {
         let mut corners = [0; N];
         for corner in &mut corners {
             *corner = scanner.index(1)?;
         }
-        add(&corners, scanner.line())?;
-        scanner.integer("the reference of a cell")?;
+        add(soup, &corners, scanner.line())?;
+        soup.tag(Some(scanner.integer("the reference of a cell")?));
     }
     Ok(())
 }

@@ -1,4 +1,4 @@
-//! Binary MEDIT, `.meshb`, versions 1 to 4; references are ignored when read.
+//! Binary MEDIT, `.meshb`, versions 1 to 4; references of vertices are ignored when read.
 
 use crate::error::{Error, ErrorKind, Result};
 use crate::mesh::io::scalar::{Endian, Scalar, whole};
@@ -142,8 +142,9 @@ impl<'a> File<'a> {
             for corner in &mut corners {
                 *corner = whole(self.number(self.whole)? - 1.0)?;
             }
-            self.number(self.whole)?;
             add(&mut self.soup, &corners)?;
+            let reference = self.integer(self.whole)?;
+            self.soup.tag(Some(reference));
         }
         Ok(())
     }

@@ -11,6 +11,7 @@ mod ply;
 pub(super) mod stl;
 mod vtk;
 mod vtk_cells;
+mod vtk_data;
 mod vtk_xml;
 mod vtp;
 mod vtu;
@@ -24,15 +25,26 @@ use crate::mesh::Mesh;
 
 /// What the bytes of a file hold.
 pub(super) fn read(format: Format, bytes: &[u8]) -> Result<Soup> {
+    read_as(format, bytes, false)
+}
+
+/// What the bytes of a file hold, with numbers of its faces, as far as it has them.
+pub(super) fn read_tagged(format: Format, bytes: &[u8]) -> Result<Soup> {
+    read_as(format, bytes, true)
+}
+
+/// The data of cells in VTK's files are read only where the faces shall be `tagged`; the others have their numbers
+/// beside the faces.
+fn read_as(format: Format, bytes: &[u8], tagged: bool) -> Result<Soup> {
     match format {
         Format::Obj => obj::read(bytes),
         Format::Off => off::read(bytes),
         Format::Ply => ply::read(bytes),
         Format::Stl => stl::read(bytes),
         Format::Medit => medit::read(bytes),
-        Format::Vtk => vtk::read(bytes),
-        Format::Vtu => vtu::read(bytes),
-        Format::Vtp => vtp::read(bytes),
+        Format::Vtk => vtk::read(bytes, tagged),
+        Format::Vtu => vtu::read(bytes, tagged),
+        Format::Vtp => vtp::read(bytes, tagged),
         Format::Msh => gmsh::read(bytes),
         Format::Inp => abaqus::read(bytes),
         Format::Meshb => meshb::read(bytes),

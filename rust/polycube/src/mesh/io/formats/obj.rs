@@ -1,7 +1,7 @@
-//! Wavefront OBJ: vertices and faces; texture, normals, groups, lines and all else are ignored.
+//! Wavefront OBJ: vertices and faces, these with the numbers of their materials or groups; all else is ignored.
 
 use crate::error::{Error, ErrorKind, Place, Result};
-use crate::mesh::io::scan::{Scanner, number, quoted, without_mark};
+use crate::mesh::io::scan::{Scanner, number, number_in, quoted, without_mark};
 use crate::mesh::io::soup::Soup;
 use crate::mesh::io::text::Text;
 use crate::mesh::{Mesh, Point};
@@ -10,6 +10,7 @@ use crate::mesh::{Mesh, Point};
 pub(super) fn read(bytes: &[u8]) -> Result<Soup> {
     let mut soup = Soup::default();
     let mut corners = Vec::new();
+    let (mut material, mut group) = (None, None);
     let mut scanner = Scanner::new(without_mark(bytes));
     loop {
         let line = scanner.line();
@@ -19,12 +20,23 @@ pub(super) fn read(bytes: &[u8]) -> Result<Soup> {
         let start = text.iter().position(|b| !b.is_ascii_whitespace());
         let rest = match text.get(start.unwrap_or(text.len())..) {
             Some([b'v' | b'f', rest @ ..]) if rest.first().is_none_or(separates) => rest,
-            _ => continue,
+            Some(other) => {
+                match other.split_first_chunk::<7>() {
+                    Some((b"usemtl ", name)) => material = number_in(name),
+                    _ if other.starts_with(b"g ") => group = number_in(&other[2..]),
+                    _ => {}
+                }
+                continue;
+            }
+            None => continue,
         };
         let is_vertex = start.is_some_and(|s| text[s] == b'v');
         // Only these lines continue: a path or a comment that ends in a backslash does not.
         let statement = Statement { rest, line, is_vertex };
         statement.read(&mut scanner, &mut soup, &mut corners)?;
+        if !is_vertex {
+            soup.tag(material.or(group));
+        }
     }
     Ok(soup)
 }

@@ -1,6 +1,7 @@
 //! Legacy VTK files: unstructured grids and polygonal data, versions 2 to 5.1, text and binary.
 
-use super::vtk_cells::{POLYGON, VtkCells, number_of, points};
+use super::vtk_cells::{POLYGON, VtkCells, choose_tags, number_of, points};
+use super::vtk_data::Data;
 use crate::error::{Error, ErrorKind, Result};
 use crate::mesh::Mesh;
 use crate::mesh::io::field::{CellField, FieldValues};
@@ -9,11 +10,16 @@ use crate::mesh::io::scan::{Scanner, number};
 use crate::mesh::io::soup::Soup;
 use crate::mesh::io::text::Text;
 
-/// Reads a mesh; the data on points and cells are ignored.
-pub(super) fn read(bytes: &[u8]) -> Result<Soup> {
+/// Reads a mesh; the data on points are ignored, and those on cells, unless it shall be `tagged` with them.
+pub(super) fn read(bytes: &[u8], tagged: bool) -> Result<Soup> {
     let mut reader = Reader::new(bytes)?;
     while let Some(keyword) = reader.scanner.word() {
         if matches!(keyword, b"CELL_DATA" | b"POINT_DATA") {
+            if tagged {
+                let mut tags = choose_tags(Data::read(&mut reader, keyword)?).unwrap_or_default();
+                tags.drain(..reader.passed.min(tags.len()));
+                reader.cells.tags = tags;
+            }
             break;
         }
         reader.section(keyword)?;
@@ -21,9 +27,11 @@ pub(super) fn read(bytes: &[u8]) -> Result<Soup> {
     reader.finish()
 }
 
-struct Reader<'a> {
-    scanner: Scanner<'a>,
+pub(super) struct Reader<'a> {
+    pub(super) scanner: Scanner<'a>,
     binary: bool,
+    /// Vertices and lines of polygonal data that were passed over.
+    passed: usize,
     /// Version 5 lists the offsets of the cells; earlier ones the number of corners before each cell.
     offsets: bool,
     soup: Soup,
@@ -47,9 +55,10 @@ impl<'a> Reader<'a> {
         Ok(Self {
             scanner,
             binary,
+            passed: 0,
             offsets: version >= 5.0,
             soup: Soup::default(),
-            cells: VtkCells { types: Vec::new(), ends: Vec::new(), corners: Vec::new() },
+            cells: VtkCells { types: Vec::new(), ends: Vec::new(), corners: Vec::new(), tags: Vec::new() },
         })
     }
 
@@ -69,17 +78,22 @@ impl<'a> Reader<'a> {
                 Ok(())
             }
             // Their cells are read and forgotten.
-            b"VERTICES" | b"LINES" => self.list().map(|_| ()),
+            b"VERTICES" | b"LINES" => self.list().map(|(ends, _)| self.passed += ends.len()),
             b"TRIANGLE_STRIPS" => Err(Error::new(ErrorKind::Unsupported, "the faces are triangle strips")
                 .remedy("export the faces as polygons")),
             b"FIELD" => self.field(),
             b"METADATA" => {
-                self.scanner.rest_of_line();
-                while self.scanner.rest_of_line().is_some_and(|line| !line.trim_ascii().is_empty()) {}
+                self.skip_metadata();
                 Ok(())
             }
             _ => Err(self.scanner.unexpected("a section of a VTK file", keyword)),
         }
+    }
+
+    /// Passes over lines up to an empty one.
+    pub(super) fn skip_metadata(&mut self) {
+        self.scanner.rest_of_line();
+        while self.scanner.rest_of_line().is_some_and(|line| !line.trim_ascii().is_empty()) {}
     }
 
     fn dataset(&mut self) -> Result<()> {
@@ -148,20 +162,12 @@ impl<'a> Reader<'a> {
         self.numbers(count, scalar)
     }
 
-    /// Skips a field: some named arrays.
+    /// Skips a field.
     fn field(&mut self) -> Result<()> {
-        self.scanner.expect("the name of a field")?;
-        for _ in 0..self.scanner.count("the number of arrays")? {
-            self.scanner.expect("the name of an array")?;
-            let width = self.scanner.count("a number of components")?;
-            let count = self.scanner.count("a number of tuples")?;
-            let scalar = self.scalar()?;
-            self.numbers(count.saturating_mul(width), scalar)?;
-        }
-        Ok(())
+        Data::new().field(self).map(|_| ())
     }
 
-    fn scalar(&mut self) -> Result<Scalar> {
+    pub(super) fn scalar(&mut self) -> Result<Scalar> {
         let name = self.scanner.expect("the type of the numbers")?;
         Ok(match name.to_ascii_lowercase().as_slice() {
             b"char" | b"signed_char" | b"vtktypeint8" => Scalar::I8,
@@ -178,7 +184,7 @@ impl<'a> Reader<'a> {
         })
     }
 
-    fn numbers(&mut self, count: usize, scalar: Scalar) -> Result<Vec<f64>> {
+    pub(super) fn numbers(&mut self, count: usize, scalar: Scalar) -> Result<Vec<f64>> {
         if self.binary {
             self.scanner.rest_of_line();
             let bytes = self.scanner.take(count.saturating_mul(scalar.size()), "binary numbers")?;

@@ -5,6 +5,19 @@ use crate::mesh::io::scalar::whole;
 use crate::mesh::io::soup::Soup;
 use crate::mesh::{CellKind, Point};
 
+/// Names of arrays of the cells that are taken for their numbers, the first that is there.
+const TAG_NAMES: [&str; 8] =
+    ["label", "labels", "flag", "flags", "medit:ref", "gmsh:physical", "CellEntityIds", "MaterialIds"];
+
+/// Which of the arrays is taken for the numbers of the cells: one of a known name, or else the only one of integers.
+pub(super) fn choose_tags<T>(arrays: Vec<(String, bool, T)>) -> Option<T> {
+    let is = |name: &str| move |array: &(String, bool, T)| array.0.eq_ignore_ascii_case(name);
+    let known = TAG_NAMES.iter().find_map(|name| arrays.iter().position(is(name)));
+    let mut integers = (0..arrays.len()).filter(|&i| arrays[i].1);
+    let only = integers.next().filter(|_| integers.next().is_none());
+    known.or(only).and_then(|i| arrays.into_iter().nth(i)).map(|array| array.2)
+}
+
 /// VTK's number of a polygon.
 pub(super) const POLYGON: u8 = 7;
 
@@ -29,6 +42,8 @@ pub(super) struct VtkCells {
     pub(super) types: Vec<f64>,
     pub(super) ends: Vec<f64>,
     pub(super) corners: Vec<f64>,
+    /// A number of each cell, or none.
+    pub(super) tags: Vec<f64>,
 }
 
 impl VtkCells {
@@ -52,7 +67,9 @@ impl VtkCells {
                 // Beyond every vertex the index is refused later, with those of other cells.
                 corners.push(base.saturating_add(vertex));
             }
-            add(soup, *kind, &mut corners).map_err(here)?;
+            if add(soup, *kind, &mut corners).map_err(here)? {
+                soup.tag(self.tags.get(i).filter(|tag| tag.fract() == 0.0).map(|&tag| tag as i64));
+            }
             start = end;
         }
         Ok(())
@@ -64,22 +81,22 @@ fn bad_offset(end: usize, corners: usize) -> Error {
     Error::new(ErrorKind::Parse, message)
 }
 
-fn add(soup: &mut Soup, kind: f64, corners: &mut [u32]) -> Result<()> {
+/// Adds a cell and says whether it did: of vertices and lines nothing is made.
+fn add(soup: &mut Soup, kind: f64, corners: &mut [u32]) -> Result<bool> {
     match (whole(kind)?, &mut *corners) {
-        // Nothing, vertices and lines.
-        (0..=4, _) => Ok(()),
-        (5, [_, _, _]) | (9, [_, _, _, _]) | (7, _) => soup.polygon(corners, 0),
+        (0..=4, _) => Ok(false),
+        (5, [_, _, _]) | (9, [_, _, _, _]) | (7, _) => soup.polygon(corners, 0).map(|()| true),
         (8, [_, _, c, d]) => {
             std::mem::swap(c, d);
-            soup.polygon(corners, 0)
+            soup.polygon(corners, 0).map(|()| true)
         }
         (10, &mut [a, b, c, d]) => {
             soup.tetrahedron([a, b, c, d], 0);
-            Ok(())
+            Ok(true)
         }
         (12, &mut [a, b, c, d, e, f, g, h]) | (11, &mut [a, b, d, c, e, f, h, g]) => {
             soup.hexahedron([a, b, c, d, e, f, g, h], 0);
-            Ok(())
+            Ok(true)
         }
         (5 | 8..=12, _) => {
             let message = format!("a cell of VTK's type {kind} with {} corners", corners.len());

@@ -1,6 +1,6 @@
 //! What VTK's XML files of any type have in common: text, inline base64 and appended data, plain or compressed by zlib.
 
-use super::vtk_cells::points;
+use super::vtk_cells::{VtkCells, choose_tags, points};
 use super::vtu_data::{Arrays, find, line_of};
 use crate::error::{Error, ErrorKind, Place, Result};
 use crate::mesh::io::field::{CellField, FieldValues};
@@ -11,13 +11,15 @@ use base64::Engine;
 use base64::prelude::BASE64_STANDARD;
 use roxmltree::{Document, Node};
 
-/// Reads a file of a type, whose pieces `cells` reads; the data on points and cells are ignored. Several pieces are put
-/// one after the other.
-pub(super) fn read(
-    bytes: &[u8],
-    kind: &str,
-    cells: impl Fn(&Node, &mut Arrays, &mut Soup, u32) -> Result<()>,
-) -> Result<Soup> {
+/// A type of files: its name, and what reads the cells of a piece, whose numbers, if that is wanted, are given.
+pub(super) struct Kind {
+    pub(super) name: &'static str,
+    pub(super) cells: fn(&Node, &mut Arrays, Vec<f64>) -> Result<VtkCells>,
+}
+
+/// Reads a file; the data on points are ignored, and those on cells, unless they shall be `tagged` with them. Several
+/// pieces are put one after the other.
+pub(super) fn read(bytes: &[u8], kind: &Kind, tagged: bool) -> Result<Soup> {
     // Appended data may be raw bytes, which XML does not allow: only what comes before is XML.
     let head = find(bytes, b"<AppendedData").unwrap_or(bytes.len());
     let (head, appended) = bytes.split_at(head);
@@ -31,8 +33,8 @@ pub(super) fn read(
         parse(&format!("the XML is malformed: {error}")).at(Place::Line(line))
     })?;
     let root = document.root_element();
-    if root.attribute("type") != Some(kind) {
-        let message = format!("not a VTK file of type {kind}");
+    if root.attribute("type") != Some(kind.name) {
+        let message = format!("not a VTK file of type {}", kind.name);
         return Err(Error::new(ErrorKind::Unsupported, message)
             .remedy("export an unstructured grid as .vtu, or a surface as .vtp"));
     }
@@ -41,7 +43,8 @@ pub(super) fn read(
     for piece in root.descendants().filter(|node| node.has_tag_name("Piece")) {
         let base = u32::try_from(soup.points.len()).unwrap_or(u32::MAX);
         soup.points.extend(points_of(&piece, &mut arrays)?);
-        cells(&piece, &mut arrays, &mut soup, base)?;
+        let tags = if tagged { tags_of(&piece, &mut arrays)? } else { Vec::new() };
+        (kind.cells)(&piece, &mut arrays, tags)?.add_to(&mut soup, base)?;
     }
     Ok(soup)
 }
@@ -65,6 +68,19 @@ fn points_of(piece: &Node, arrays: &mut Arrays) -> Result<Vec<Point>> {
         return Err(Error::new(ErrorKind::Parse, message).at(line_of(&coordinates)));
     }
     Ok(points(&arrays.numbers(&coordinates)?))
+}
+
+/// A number of each cell, or none.
+fn tags_of(piece: &Node, arrays: &mut Arrays) -> Result<Vec<f64>> {
+    let data = piece.children().filter(|node| node.has_tag_name("CellData")).flat_map(|node| node.children());
+    let single = |node: &Node| {
+        node.has_tag_name("DataArray") && matches!(node.attribute("NumberOfComponents"), None | Some("" | "1"))
+    };
+    let described = |node: Node| {
+        let [name, kind] = ["Name", "type"].map(|key| node.attribute(key).unwrap_or_default());
+        (name.to_owned(), kind.contains("Int"), arrays.numbers(&node))
+    };
+    choose_tags(data.filter(single).map(described).collect()).unwrap_or(Ok(Vec::new()))
 }
 
 /// A data array of a piece, by its name or the only one.

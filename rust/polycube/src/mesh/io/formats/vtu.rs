@@ -1,27 +1,29 @@
 //! VTK's XML unstructured grids.
 
 use super::vtk_cells::{VtkCells, number_of};
-use super::vtk_xml::{self, array, write_array, write_corners};
+use super::vtk_xml::{self, Kind, array, write_array, write_corners};
 use crate::error::Result;
 use crate::mesh::Mesh;
 use crate::mesh::io::field::CellField;
 use crate::mesh::io::soup::Soup;
 
-const KIND: &str = "UnstructuredGrid";
-
-/// Reads a mesh.
-pub(super) fn read(bytes: &[u8]) -> Result<Soup> {
-    vtk_xml::read(bytes, KIND, |piece, arrays, soup, base| {
+const KIND: Kind = Kind {
+    name: "UnstructuredGrid",
+    cells: |piece, arrays, tags| {
         let mut cells = |name| arrays.numbers(&array(piece, "Cells", Some(name))?);
-        let cells = VtkCells { types: cells("types")?, ends: cells("offsets")?, corners: cells("connectivity")? };
-        cells.add_to(soup, base)
-    })
+        Ok(VtkCells { types: cells("types")?, ends: cells("offsets")?, corners: cells("connectivity")?, tags })
+    },
+};
+
+/// Reads a mesh, with numbers of its cells if it shall be `tagged`.
+pub(super) fn read(bytes: &[u8], tagged: bool) -> Result<Soup> {
+    vtk_xml::read(bytes, &KIND, tagged)
 }
 
 /// Writes a mesh.
 pub(super) fn write(mesh: &Mesh, fields: &[CellField]) -> Vec<u8> {
     let count = mesh.cells().len();
-    vtk_xml::write(mesh, [KIND, &format!("NumberOfCells=\"{count}\"")], fields, |text| {
+    vtk_xml::write(mesh, [KIND.name, &format!("NumberOfCells=\"{count}\"")], fields, |text| {
         text.put("<Cells>\n");
         write_corners(text, mesh);
         let types = std::iter::repeat_n(number_of(mesh.cells().kind()), count);
