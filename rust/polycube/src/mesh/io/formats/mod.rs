@@ -7,16 +7,10 @@ mod meshb;
 mod obj;
 mod off;
 mod ply;
-
 pub(super) mod stl;
 mod vtk;
-mod vtk_cells;
-mod vtk_data;
-mod vtk_xml;
-mod vtp;
-mod vtu;
-mod vtu_data;
 
+use self::vtk::{legacy, vtp, vtu};
 use super::field::CellField;
 use super::format::Format;
 use super::soup::Soup;
@@ -42,7 +36,7 @@ fn read_as(format: Format, bytes: &[u8], tagged: bool) -> Result<Soup> {
         Format::Ply => ply::read(bytes),
         Format::Stl => stl::read(bytes),
         Format::Medit => medit::read(bytes),
-        Format::Vtk => vtk::read(bytes, tagged),
+        Format::Vtk => legacy::read(bytes, tagged),
         Format::Vtu => vtu::read(bytes, tagged),
         Format::Vtp => vtp::read(bytes, tagged),
         Format::Msh => gmsh::read(bytes),
@@ -59,7 +53,7 @@ pub(super) fn write(format: Format, mesh: &Mesh, fields: &[CellField]) -> Result
         Format::Ply => Ok(ply::write(mesh, fields)),
         Format::Stl => stl::write(mesh),
         Format::Medit => Ok(medit::write(mesh, fields)),
-        Format::Vtk => Ok(vtk::write(mesh, fields)),
+        Format::Vtk => Ok(legacy::write(mesh, fields)),
         Format::Vtu => Ok(vtu::write(mesh, fields)),
         Format::Vtp => Ok(vtp::write(mesh, fields)),
         Format::Msh => Ok(gmsh::write(mesh)),

@@ -1,8 +1,8 @@
 //! VTK's XML surfaces; their vertices and lines are passed over.
 
-use super::vtk_cells::{POLYGON, VtkCells};
-use super::vtk_xml::{self, Kind, array, write_corners};
-use super::vtu_data::Arrays;
+use super::cells::{POLYGON, VtkCells};
+use super::xml::{self, Kind, array, write_corners};
+use super::xml_data::Arrays;
 use crate::error::{Error, ErrorKind, Result};
 use crate::mesh::Mesh;
 use crate::mesh::io::field::CellField;
@@ -12,8 +12,8 @@ use roxmltree::Node;
 const KIND: Kind = Kind { name: "PolyData", cells: polygons };
 
 /// Reads a surface, with numbers of its faces if it shall be `tagged`.
-pub(super) fn read(bytes: &[u8], tagged: bool) -> Result<Soup> {
-    vtk_xml::read(bytes, &KIND, tagged)
+pub(in crate::mesh::io::formats) fn read(bytes: &[u8], tagged: bool) -> Result<Soup> {
+    xml::read(bytes, &KIND, tagged)
 }
 
 fn polygons(piece: &Node, arrays: &mut Arrays, mut tags: Vec<f64>) -> Result<VtkCells> {
@@ -34,8 +34,8 @@ fn polygons(piece: &Node, arrays: &mut Arrays, mut tags: Vec<f64>) -> Result<Vtk
 }
 
 /// Writes a surface.
-pub(super) fn write(mesh: &Mesh, fields: &[CellField]) -> Vec<u8> {
-    vtk_xml::write(mesh, [KIND.name, &format!("NumberOfPolys=\"{}\"", mesh.cells().len())], fields, |text| {
+pub(in crate::mesh::io::formats) fn write(mesh: &Mesh, fields: &[CellField]) -> Vec<u8> {
+    xml::write(mesh, [KIND.name, &format!("NumberOfPolys=\"{}\"", mesh.cells().len())], fields, |text| {
         text.put("<Polys>\n");
         write_corners(text, mesh);
         text.put("</Polys>\n");

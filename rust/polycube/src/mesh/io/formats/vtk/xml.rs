@@ -1,7 +1,7 @@
 //! What VTK's XML files of any type have in common: text, inline base64 and appended data, plain or compressed by zlib.
 
-use super::vtk_cells::{VtkCells, choose_tags, points};
-use super::vtu_data::{Arrays, find, line_of};
+use super::cells::{VtkCells, choose_tags, points};
+use super::xml_data::{Arrays, find, line_of};
 use crate::error::{Error, ErrorKind, Place, Result};
 use crate::mesh::io::field::{CellField, FieldValues};
 use crate::mesh::io::soup::Soup;

@@ -1,6 +1,6 @@
 //! The data of points and cells in legacy VTK files.
 
-use super::vtk::Reader;
+use super::legacy::Reader;
 use crate::error::Result;
 use crate::mesh::io::scalar::Scalar;
 

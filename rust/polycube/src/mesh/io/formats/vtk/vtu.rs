@@ -1,7 +1,7 @@
 //! VTK's XML unstructured grids.
 
-use super::vtk_cells::{VtkCells, number_of};
-use super::vtk_xml::{self, Kind, array, write_array, write_corners};
+use super::cells::{VtkCells, number_of};
+use super::xml::{self, Kind, array, write_array, write_corners};
 use crate::error::Result;
 use crate::mesh::Mesh;
 use crate::mesh::io::field::CellField;
@@ -16,14 +16,14 @@ const KIND: Kind = Kind {
 };
 
 /// Reads a mesh, with numbers of its cells if it shall be `tagged`.
-pub(super) fn read(bytes: &[u8], tagged: bool) -> Result<Soup> {
-    vtk_xml::read(bytes, &KIND, tagged)
+pub(in crate::mesh::io::formats) fn read(bytes: &[u8], tagged: bool) -> Result<Soup> {
+    xml::read(bytes, &KIND, tagged)
 }
 
 /// Writes a mesh.
-pub(super) fn write(mesh: &Mesh, fields: &[CellField]) -> Vec<u8> {
+pub(in crate::mesh::io::formats) fn write(mesh: &Mesh, fields: &[CellField]) -> Vec<u8> {
     let count = mesh.cells().len();
-    vtk_xml::write(mesh, [KIND.name, &format!("NumberOfCells=\"{count}\"")], fields, |text| {
+    xml::write(mesh, [KIND.name, &format!("NumberOfCells=\"{count}\"")], fields, |text| {
         text.put("<Cells>\n");
         write_corners(text, mesh);
         let types = std::iter::repeat_n(number_of(mesh.cells().kind()), count);

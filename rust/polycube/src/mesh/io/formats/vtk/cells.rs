@@ -11,8 +11,8 @@ const TAG_NAMES: [&str; 8] =
 
 /// Which of the arrays is taken for the numbers of the cells: one of a known name, or else the only one of integers.
 pub(super) fn choose_tags<T>(arrays: Vec<(String, bool, T)>) -> Option<T> {
-    let is = |name: &str| move |array: &(String, bool, T)| array.0.eq_ignore_ascii_case(name);
-    let known = TAG_NAMES.iter().find_map(|name| arrays.iter().position(is(name)));
+    let place = |name: &&str| arrays.iter().position(|array| array.0.eq_ignore_ascii_case(name));
+    let known = TAG_NAMES.iter().find_map(place);
     let mut integers = (0..arrays.len()).filter(|&i| arrays[i].1);
     let only = integers.next().filter(|_| integers.next().is_none());
     known.or(only).and_then(|i| arrays.into_iter().nth(i)).map(|array| array.2)

@@ -1,7 +1,7 @@
 //! Legacy VTK files: unstructured grids and polygonal data, versions 2 to 5.1, text and binary.
 
-use super::vtk_cells::{POLYGON, VtkCells, choose_tags, number_of, points};
-use super::vtk_data::Data;
+use super::cells::{POLYGON, VtkCells, choose_tags, number_of, points};
+use super::legacy_data::Data;
 use crate::error::{Error, ErrorKind, Result};
 use crate::mesh::Mesh;
 use crate::mesh::io::field::{CellField, FieldValues};
@@ -11,7 +11,7 @@ use crate::mesh::io::soup::Soup;
 use crate::mesh::io::text::Text;
 
 /// Reads a mesh; the data on points are ignored, and those on cells, unless it shall be `tagged` with them.
-pub(super) fn read(bytes: &[u8], tagged: bool) -> Result<Soup> {
+pub(in crate::mesh::io::formats) fn read(bytes: &[u8], tagged: bool) -> Result<Soup> {
     let mut reader = Reader::new(bytes)?;
     while let Some(keyword) = reader.scanner.word() {
         if matches!(keyword, b"CELL_DATA" | b"POINT_DATA") {
@@ -204,7 +204,7 @@ impl<'a> Reader<'a> {
 }
 
 /// Writes an unstructured grid as text, with the fields as scalars of the cells.
-pub(super) fn write(mesh: &Mesh, fields: &[CellField]) -> Vec<u8> {
+pub(in crate::mesh::io::formats) fn write(mesh: &Mesh, fields: &[CellField]) -> Vec<u8> {
     let mut text = Text::default();
     text.put("# vtk DataFile Version 3.0\npolycube\nASCII\nDATASET UNSTRUCTURED_GRID\nPOINTS ");
     text.put(mesh.points().len()).put(" double").end();
