@@ -228,6 +228,7 @@ mod tests {
         assert!(left().is_empty() && output.left(["a/b".into()]).is_empty());
         fs::write(root.path().join(REPORT), "").unwrap();
         assert_eq!(output.left(["a/b".into()]), [root.path().join("a/b")]);
-        assert_eq!(left(), ["mesh", "vtk", "vtu"].map(|e| root.path().join(format!("hexes.{e}"))));
+        let extensions = ["mesh", "meshb", "vtk", "vtu", "msh", "inp"];
+        assert_eq!(left(), extensions.map(|e| root.path().join(format!("hexes.{e}"))));
     }
 }
