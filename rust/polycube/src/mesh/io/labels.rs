@@ -56,9 +56,12 @@ fn counted(labels: Vec<i8>, face_count: usize) -> Result<Vec<i8>> {
 /// Those of [`read_labels`] and of reading `source`; [`ErrorKind::Option`] for a number that `order` does not have.
 pub fn read_labels_of(mesh: &Mesh, source: Option<&Path>, path: &Path, order: Option<&LabelOrder>) -> Result<Vec<i8>> {
     let here = |error: Error| error.in_file(path.display());
-    let numbers = read_numbers(path, order.map_or(6, |_| i8::MAX)).map_err(here)?;
-    let source = if Format::from_path(path).is_ok() { Some(path) } else { source };
-    let numbers = for_faces(mesh, source, numbers).map_err(here)?;
+    let (bytes, largest) = (read_file(path)?, order.map_or(6, |_| i8::MAX));
+    let numbers = match Format::from_path(path) {
+        Ok(format) => of_mesh_file(mesh, format, &bytes, largest),
+        Err(_) => numbers(&bytes, largest).and_then(|numbers| for_faces(mesh, source, numbers)),
+    };
+    let numbers = numbers.map_err(here)?;
     order.map_or(Ok(numbers.clone()), |order| order.apply(&numbers)).map_err(here)
 }
 
@@ -143,12 +146,30 @@ fn by_corners(boundary: &[Face], known: impl Iterator<Item = (impl AsRef<[u32]>,
 /// The numbers, from −1 to `largest`, in a text or of the faces in a mesh file.
 fn read_numbers(path: &Path, largest: i8) -> Result<Vec<i8>> {
     let bytes = read_file(path)?;
-    Format::from_path(path).map_or_else(|_| numbers(&bytes, largest), |format| tags(format, &bytes, largest))
+    match Format::from_path(path) {
+        Ok(format) => tags(format, &formats::read_tagged(format, &bytes)?, largest),
+        Err(_) => numbers(&bytes, largest),
+    }
 }
 
-/// The numbers of the faces in a mesh file.
-fn tags(format: Format, bytes: &[u8], largest: i8) -> Result<Vec<i8>> {
-    let tags: Vec<Option<i64>> = formats::read_tagged(format, bytes)?.tags_of_polygons().collect();
+/// The numbers of the boundary faces, from those of the faces that a mesh file lists.
+fn of_mesh_file(mesh: &Mesh, format: Format, bytes: &[u8], largest: i8) -> Result<Vec<i8>> {
+    let held = formats::read_tagged(format, bytes)?;
+    let (numbers, boundary) = (tags(format, &held, largest)?, mesh.cells().boundary()?);
+    if numbers.len() == boundary.len() && !mesh.cells().is_volume() {
+        return Ok(numbers);
+    }
+    let found = of_polygons(mesh, &held, &boundary, &numbers);
+    if found.len() == boundary.len() {
+        return Ok(found);
+    }
+    let message = format!("the labels are those of {} faces, and the mesh has {}", found.len(), boundary.len());
+    Err(Error::new(ErrorKind::Mismatch, message).remedy("name a file with the same faces as the mesh"))
+}
+
+/// The numbers of the faces that a mesh file lists.
+fn tags(format: Format, held: &Soup, largest: i8) -> Result<Vec<i8>> {
+    let tags: Vec<Option<i64>> = held.tags_of_polygons().collect();
     if tags.iter().all(Option::is_none) {
         let message = format!("the faces in this .{format} file have no numbers");
         return Err(Error::new(ErrorKind::Parse, message).remedy(
