@@ -2,10 +2,11 @@
 
 use super::cells::{POLYGON, VtkCells, choose_tags, number_of, points};
 use super::legacy_data::Data;
+use super::legacy_numbers::Numbers;
 use crate::error::{Error, ErrorKind, Result};
 use crate::mesh::Mesh;
 use crate::mesh::io::field::{CellField, FieldValues};
-use crate::mesh::io::scalar::{Endian, Scalar};
+use crate::mesh::io::scalar::Scalar;
 use crate::mesh::io::scan::{Scanner, number};
 use crate::mesh::io::soup::Soup;
 use crate::mesh::io::text::Text;
@@ -13,10 +14,10 @@ use crate::mesh::io::text::Text;
 /// Reads a mesh; the data on points are ignored, and those on cells, unless it shall be `tagged` with them.
 pub(in crate::mesh::io::formats) fn read(bytes: &[u8], tagged: bool) -> Result<Soup> {
     let mut reader = Reader::new(bytes)?;
-    while let Some(keyword) = reader.scanner.word() {
+    while let Some(keyword) = reader.numbers.scanner.word() {
         if matches!(keyword, b"CELL_DATA" | b"POINT_DATA") {
             if tagged {
-                let mut tags = choose_tags(Data::read(&mut reader, keyword)?).unwrap_or_default();
+                let mut tags = choose_tags(Data::read(&mut reader.numbers, keyword)?).unwrap_or_default();
                 tags.drain(..reader.passed.min(tags.len()));
                 reader.cells.tags = tags;
             }
@@ -27,9 +28,8 @@ pub(in crate::mesh::io::formats) fn read(bytes: &[u8], tagged: bool) -> Result<S
     reader.finish()
 }
 
-pub(super) struct Reader<'a> {
-    pub(super) scanner: Scanner<'a>,
-    binary: bool,
+struct Reader<'a> {
+    numbers: Numbers<'a>,
     /// Vertices and lines of polygonal data that were passed over.
     passed: usize,
     /// Version 5 lists the offsets of the cells; earlier ones the number of corners before each cell.
@@ -53,8 +53,7 @@ impl<'a> Reader<'a> {
             return Err(scanner.unexpected("ASCII or BINARY", encoding));
         }
         Ok(Self {
-            scanner,
-            binary,
+            numbers: Numbers::new(scanner, binary),
             passed: 0,
             offsets: version >= 5.0,
             soup: Soup::default(),
@@ -68,8 +67,8 @@ impl<'a> Reader<'a> {
             b"POINTS" => self.points(),
             b"CELLS" => self.cells(),
             b"CELL_TYPES" => {
-                let count = self.scanner.count("the number of cells")?;
-                self.cells.types = self.numbers(count, Scalar::I32)?;
+                let count = self.numbers.scanner.count("the number of cells")?;
+                self.cells.types = self.numbers.read(count, Scalar::I32)?;
                 Ok(())
             }
             b"POLYGONS" => {
@@ -83,21 +82,15 @@ impl<'a> Reader<'a> {
                 .remedy("export the faces as polygons")),
             b"FIELD" => self.field(),
             b"METADATA" => {
-                self.skip_metadata();
+                self.numbers.skip_metadata();
                 Ok(())
             }
-            _ => Err(self.scanner.unexpected("a section of a VTK file", keyword)),
+            _ => Err(self.numbers.scanner.unexpected("a section of a VTK file", keyword)),
         }
     }
 
-    /// Passes over lines up to an empty one.
-    pub(super) fn skip_metadata(&mut self) {
-        self.scanner.rest_of_line();
-        while self.scanner.rest_of_line().is_some_and(|line| !line.trim_ascii().is_empty()) {}
-    }
-
     fn dataset(&mut self) -> Result<()> {
-        let name = self.scanner.expect("the kind of data set")?;
+        let name = self.numbers.scanner.expect("the kind of data set")?;
         if matches!(name, b"UNSTRUCTURED_GRID" | b"POLYDATA") {
             return Ok(());
         }
@@ -106,9 +99,9 @@ impl<'a> Reader<'a> {
     }
 
     fn points(&mut self) -> Result<()> {
-        let count = self.scanner.count("the number of points")?;
-        let scalar = self.scalar()?;
-        let coordinates = self.numbers(count.saturating_mul(3), scalar)?;
+        let count = self.numbers.scanner.count("the number of points")?;
+        let scalar = self.numbers.scalar()?;
+        let coordinates = self.numbers.read(count.saturating_mul(3), scalar)?;
         self.soup.points = points(&coordinates);
         Ok(())
     }
@@ -120,10 +113,10 @@ impl<'a> Reader<'a> {
 
     /// Reads a list of cells: where the corners of each end, and the corners.
     fn list(&mut self) -> Result<(Vec<f64>, Vec<f64>)> {
-        let count = self.scanner.count("the number of cells")?;
-        let size = self.scanner.count("the size of the list of cells")?;
+        let count = self.numbers.scanner.count("the number of cells")?;
+        let size = self.numbers.scanner.count("the size of the list of cells")?;
         if !self.offsets {
-            let numbers = self.numbers(size, Scalar::I32)?;
+            let numbers = self.numbers.read(size, Scalar::I32)?;
             return self.split(count, &numbers);
         }
         let mut ends = self.named(b"OFFSETS", count)?;
@@ -140,61 +133,31 @@ impl<'a> Reader<'a> {
         while let Some((&length, tail)) = rest.split_first() {
             let cell = crate::mesh::io::scalar::whole(length).ok().and_then(|n| tail.split_at_checked(n as usize));
             let (cell, tail) =
-                cell.ok_or_else(|| self.scanner.error(format!("cell {} has {length} corners", ends.len())))?;
+                cell.ok_or_else(|| self.numbers.scanner.error(format!("cell {} has {length} corners", ends.len())))?;
             corners.extend_from_slice(cell);
             ends.push(corners.len() as f64);
             rest = tail;
         }
         if ends.len() != count {
             let message = format!("{} cells where {count} were announced", ends.len());
-            return Err(self.scanner.error(message));
+            return Err(self.numbers.scanner.error(message));
         }
         Ok((ends, corners))
     }
 
     fn named(&mut self, name: &[u8], count: usize) -> Result<Vec<f64>> {
         let what = String::from_utf8_lossy(name);
-        let word = self.scanner.expect(&what)?;
+        let word = self.numbers.scanner.expect(&what)?;
         if word != name {
-            return Err(self.scanner.unexpected(&what, word));
+            return Err(self.numbers.scanner.unexpected(&what, word));
         }
-        let scalar = self.scalar()?;
-        self.numbers(count, scalar)
+        let scalar = self.numbers.scalar()?;
+        self.numbers.read(count, scalar)
     }
 
     /// Skips a field.
     fn field(&mut self) -> Result<()> {
-        Data::new().field(self).map(|_| ())
-    }
-
-    pub(super) fn scalar(&mut self) -> Result<Scalar> {
-        let name = self.scanner.expect("the type of the numbers")?;
-        Ok(match name.to_ascii_lowercase().as_slice() {
-            b"char" | b"signed_char" | b"vtktypeint8" => Scalar::I8,
-            b"unsigned_char" | b"vtktypeuint8" => Scalar::U8,
-            b"short" | b"vtktypeint16" => Scalar::I16,
-            b"unsigned_short" | b"vtktypeuint16" => Scalar::U16,
-            b"int" | b"vtkidtype" | b"vtktypeint32" => Scalar::I32,
-            b"unsigned_int" | b"vtktypeuint32" => Scalar::U32,
-            b"long" | b"long_long" | b"vtktypeint64" => Scalar::I64,
-            b"unsigned_long" | b"unsigned_long_long" | b"vtktypeuint64" => Scalar::U64,
-            b"float" => Scalar::F32,
-            b"double" => Scalar::F64,
-            _ => return Err(self.scanner.unexpected("a type of numbers", name)),
-        })
-    }
-
-    pub(super) fn numbers(&mut self, count: usize, scalar: Scalar) -> Result<Vec<f64>> {
-        if self.binary {
-            self.scanner.rest_of_line();
-            let bytes = self.scanner.take(count.saturating_mul(scalar.size()), "binary numbers")?;
-            return Ok(scalar.read_all(bytes, Endian::Big));
-        }
-        let mut numbers = Vec::with_capacity(self.scanner.capacity(count, 2));
-        for _ in 0..count {
-            numbers.push(self.scanner.float("a number")?);
-        }
-        Ok(numbers)
+        Data::new().field(&mut self.numbers).map(|_| ())
     }
 
     fn finish(mut self) -> Result<Soup> {

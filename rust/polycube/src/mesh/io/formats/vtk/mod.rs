@@ -3,6 +3,7 @@
 mod cells;
 pub(super) mod legacy;
 mod legacy_data;
+mod legacy_numbers;
 pub(super) mod vtp;
 pub(super) mod vtu;
 mod xml;
