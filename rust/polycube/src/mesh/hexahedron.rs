@@ -39,6 +39,25 @@ pub(crate) fn corner_tetrahedra(hex: &[u32; 8]) -> [[u32; 4]; 8] {
     CORNERS.map(|corner| corner.map(|k| hex[k]))
 }
 
+/// The faces that two hexahedra share, by all their vertices, each as the one with the lower number has it, then the
+/// other; none is that of more than two. O(n log n).
+pub(crate) fn shared_faces(cells: &[[u32; 8]]) -> Vec<[HexFace; 2]> {
+    let mut keys = Vec::with_capacity(cells.len() * FACES.len());
+    for (cell, _) in (0..).zip(cells) {
+        for side in (0..FACES.len() as u8).map(|face| HexFace { cell, face }) {
+            let mut key = side.vertices(cells);
+            key.sort_unstable();
+            keys.push((key, side));
+        }
+    }
+    keys.sort_unstable();
+    let pairs = keys.chunk_by(|a, b| a.0 == b.0).filter_map(|same| match *same {
+        [(_, one), (_, other)] => Some([one, other]),
+        _ => None,
+    });
+    pairs.collect()
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;

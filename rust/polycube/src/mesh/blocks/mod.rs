@@ -9,7 +9,7 @@ mod grid;
 #[cfg(test)]
 mod tests;
 
-use super::{GroupedHexes, HexFace};
+use super::GroupedHexes;
 use crate::error::{Error, ErrorKind, Result};
 use across::Across;
 use grid::Walker;

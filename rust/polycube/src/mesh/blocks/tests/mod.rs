@@ -5,7 +5,7 @@ mod remeshed;
 
 use super::*;
 use crate::map::testing::{hex_box, shuffled};
-use crate::mesh::{Cells, Groups, Mesh};
+use crate::mesh::{Cells, Groups, HexFace, Mesh};
 use crate::rng::SplitMix64;
 use invariants::check;
 use std::collections::BTreeSet;

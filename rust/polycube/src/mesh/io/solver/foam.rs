@@ -1,6 +1,6 @@
 //! OpenFOAM's mesh as text: faces with the cell that they look away from and the one that they look at.
 
-use crate::mesh::hexahedron::FACES;
+use crate::mesh::hexahedron::shared_faces;
 use crate::mesh::io::text::Text;
 use crate::mesh::{GroupedHexes, HexFace};
 
@@ -33,19 +33,7 @@ pub(super) fn write(hexes: &GroupedHexes) -> [Vec<u8>; 6] {
 /// The faces between two hexahedra, seen from the one with the lower number, with the other one; ordered by both, as
 /// OpenFOAM wants the entries above the diagonal of its matrices.
 fn inner_faces(cells: &[[u32; 8]]) -> Vec<(HexFace, u32)> {
-    let mut keys = Vec::with_capacity(cells.len() * FACES.len());
-    for (cell, _) in (0..).zip(cells) {
-        for side in (0..FACES.len() as u8).map(|face| HexFace { cell, face }) {
-            let mut key = side.vertices(cells);
-            key.sort_unstable();
-            keys.push((key, side));
-        }
-    }
-    keys.sort_unstable();
-    let pairs = keys.chunk_by(|a, b| a.0 == b.0).filter_map(|same| match same {
-        [(_, owner), (_, neighbour)] => Some((*owner, neighbour.cell)),
-        _ => None,
-    });
+    let pairs = shared_faces(cells).into_iter().map(|[owner, neighbour]| (owner, neighbour.cell));
     let mut inner: Vec<_> = pairs.collect();
     inner.sort_unstable_by_key(|&(face, neighbour)| (face.cell, neighbour, face.face));
     inner
