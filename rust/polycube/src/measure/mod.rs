@@ -23,5 +23,5 @@ pub use hausdorff::hausdorff;
 pub(crate) use quality::BARS;
 pub(crate) use quality::edges;
 pub use quality::{Quality, Statistics, cell_qualities, scaled_jacobian, scaled_jacobians, statistics};
-pub(crate) use quality::{quadrilateral_scaled_jacobian, tetrahedron_volume};
-pub(crate) use soundness::{AIM, GOOD, corner_soundness, mean_determinant, soundness};
+pub(crate) use quality::{or_worst, quadrilateral_scaled_jacobian, tetrahedron_volume};
+pub(crate) use soundness::{ACCEPTED, AIM, Fair, GOOD, corner_soundness, mean, mean_determinant, soundness};

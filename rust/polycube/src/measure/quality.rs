@@ -32,7 +32,7 @@ fn directions(edges: &Matrix3<f64>) -> Matrix3<f64> {
 }
 
 /// A quality that is not a number is as bad as can be.
-pub(super) fn or_worst(quality: f64) -> f64 {
+pub(crate) fn or_worst(quality: f64) -> f64 {
     if quality.is_nan() { -1.0 } else { quality }
 }
 

@@ -24,7 +24,7 @@ pub(crate) struct Fair {
 /// What is aimed at when vertices are moved: more than what is accepted, as the last cells never get there.
 pub(crate) const AIM: Fair = Fair { ratio: 5.0, determinant: 0.05 };
 /// What meshes are judged by.
-const ACCEPTED: Fair = Fair { ratio: 8.0, determinant: 0.03 };
+pub(crate) const ACCEPTED: Fair = Fair { ratio: 8.0, determinant: 0.03 };
 /// A mesh whose cells are all as sound as this is good: a scaled Jacobian that Verdict's manual calls acceptable for
 /// hexahedra, edges at a corner that differ by no more than a factor of 16, and at least a 67th of the mean
 /// determinant.
@@ -54,12 +54,17 @@ pub(crate) fn soundness(points: &[Point], hex: &[u32; 8], mean: f64) -> f64 {
 /// The mean of the corner determinants of hexahedra; where they all but cancel each other out, of their sizes. 0 for
 /// none. Linear time.
 pub(crate) fn mean_determinant(points: &[Point], hexes: &[[u32; 8]]) -> f64 {
-    let (mut sum, mut sizes) = (0.0, 0.0);
-    for corner in hexes.iter().flat_map(corner_tetrahedra) {
-        let determinant = edges(points, corner).determinant();
+    mean(hexes.iter().flat_map(corner_tetrahedra).map(|corner| edges(points, corner).determinant()))
+}
+
+/// The mean of determinants; where they all but cancel each other out, of their sizes. 0 for none.
+pub(crate) fn mean(determinants: impl Iterator<Item = f64>) -> f64 {
+    let (mut sum, mut sizes, mut count) = (0.0, 0.0, 0_usize);
+    for determinant in determinants {
         sum += determinant;
         sizes += determinant.abs();
+        count += 1;
     }
-    let all = (8 * hexes.len()).max(1) as f64;
+    let all = count.max(1) as f64;
     if sum > TANGLED * sizes { sum / all } else { sizes / all }
 }

@@ -195,10 +195,15 @@ impl<'a> Side<'a> {
             three(|axis| Lanes::each(|lane| at(lane)[axis]))
         };
         let origin = point(0);
-        three(|k| {
+        let mut edges = three(|k| {
             let end = point(k + 1);
             three(|axis| end[axis] - origin[axis])
-        })
+        });
+        if !self.elements.offsets.is_empty() {
+            let offset = |lane: usize| &self.elements.offsets[self.at[lane]];
+            edges[2] = three(|axis| edges[2][axis] + Lanes::each(|lane| offset(lane)[axis]));
+        }
+        edges
     }
 
     #[inline(always)]

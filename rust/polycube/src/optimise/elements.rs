@@ -1,9 +1,10 @@
 //! The corner tetrahedra whose shapes are optimised, each with the shape it should have.
 
+use super::sizes::{fair, sizes};
 use crate::error::{Error, ErrorKind, Place, Result};
-use crate::measure::{AIM, corner_soundness, edges, mean_determinant};
+use crate::measure::{AIM, Fair, corner_soundness, edges, mean_determinant, or_worst};
+use crate::mesh::Point;
 use crate::mesh::hexahedron::{CORNERS, EDGES, corner_tetrahedra};
-use crate::mesh::{Point, Stars};
 use nalgebra::{Matrix3, Vector3};
 use rayon::prelude::*;
 
@@ -61,17 +62,15 @@ pub struct Elements {
     pub(super) weights: Vec<f64>,
     pub(super) per_cell: usize,
     pub(super) measure: Measure,
+    /// What is added to the third edge of each element: those of a surface, whose third edge has no other end, have
+    /// their normals there, as long as their sides. None for elements of a volume.
+    pub(super) offsets: Vec<Vector3<f64>>,
     /// The mean determinant of the edges; 0 as long as it is not known.
     pub(super) mean: f64,
 }
 
 /// Elements that a thread takes at least.
 const LEAST_SHARE: usize = 4096;
-
-/// No side of a box shall be shorter than this part of the mean edge,
-const LEAST_SIDE: f64 = 0.3;
-/// nor any longer than so many times the shortest.
-const LONGEST_SIDE: f64 = 4.0;
 
 /// A rest shape with a lower mean ratio than this is no example to follow.
 const WORST_REST: f64 = 0.02;
@@ -122,7 +121,7 @@ impl Elements {
     /// [`ErrorKind::Mesh`] naming the cell that has a vertex outside `points`.
     pub fn boxes_like(hexes: &[[u32; 8]], points: &[Point], smoothing: usize) -> Result<Self> {
         check(hexes, points.len())?;
-        Ok(Self::boxes(hexes, points, &box_sizes(hexes, points, smoothing)))
+        Ok(Self::boxes(hexes, points, &sizes(hexes, &EDGES, points, smoothing)))
     }
 
     /// The same, but no box is thinner than 0.3 times the mean edge or a quarter of its own longest side: cells that
@@ -132,13 +131,7 @@ impl Elements {
     /// Those of [`boxes_like`](Self::boxes_like).
     pub fn fair_boxes_like(hexes: &[[u32; 8]], points: &[Point], smoothing: usize) -> Result<Self> {
         check(hexes, points.len())?;
-        let mut sizes = box_sizes(hexes, points, smoothing);
-        let floor = LEAST_SIDE * sizes.as_flattened().iter().sum::<f64>() / (3 * sizes.len()).max(1) as f64;
-        for size in &mut sizes {
-            let least = floor.max(size.iter().copied().fold(0.0, f64::max) / LONGEST_SIDE);
-            *size = size.map(|side| side.max(least));
-        }
-        Ok(Self::boxes(hexes, points, &sizes))
+        Ok(Self::boxes(hexes, points, &fair(sizes(hexes, &EDGES, points, smoothing))))
     }
 
     fn boxes(hexes: &[[u32; 8]], points: &[Point], sizes: &[[f64; 3]]) -> Self {
@@ -147,7 +140,7 @@ impl Elements {
         Self { mean: mean_determinant(points, hexes), ..own }
     }
 
-    fn new(
+    pub(super) fn new(
         corners: Vec<[u32; 4]>,
         shapes: Vec<Matrix3<f64>>,
         weights: Vec<f64>,
@@ -155,12 +148,7 @@ impl Elements {
         measure: Measure,
     ) -> Self {
         let references = shapes.iter().map(Reference::new).collect();
-        Self { corners, references, weights, per_cell, measure, mean: 0.0 }
-    }
-
-    /// The mean determinant of the edges; 0 as long as it is not known.
-    pub(crate) fn mean_determinant(&self) -> f64 {
-        self.mean
+        Self { corners, references, weights, per_cell, measure, offsets: Vec::new(), mean: 0.0 }
     }
 
     /// The determinant of the edges below which an element is less sound, see [`corner_soundness`].
@@ -208,14 +196,26 @@ impl Elements {
             corners: all().map(|e| self.corners[e].map(&own)).collect(),
             references: all().map(|e| self.references[e]).collect(),
             weights: all().map(|e| self.weights[e]).collect(),
+            offsets: all().filter_map(|e| self.offsets.get(e).copied()).collect(),
             ..*self
         }
     }
 
-    /// Scales the references to the mean volume of the elements, which a fixed boundary keeps.
+    /// The three edges of an element.
+    #[inline]
+    pub(super) fn edges(&self, i: usize, points: &[Point]) -> Matrix3<f64> {
+        let mut edges = edges(points, self.corners[i]);
+        if let Some(offset) = self.offsets.get(i) {
+            edges.set_column(2, &(edges.column(2) + offset));
+        }
+        edges
+    }
+
+    /// Scales the references to the mean volume of the elements, or area of those of a surface, which a fixed boundary
+    /// keeps.
     pub(super) fn match_size(&mut self, points: &[Point]) {
         if self.mean == 0.0 {
-            let all = self.each(|i| edges(points, self.corners[i]).determinant().abs());
+            let all = self.each(|i| self.edges(i, points).determinant().abs());
             self.mean = all.iter().sum::<f64>() / self.len().max(1) as f64;
         }
         let dets = self.each(|i| self.weights[i] * self.det(i, points));
@@ -223,16 +223,28 @@ impl Elements {
         let (mean, absolute) = (dets.iter().sum::<f64>() / weight, dets.iter().map(|d| d.abs()).sum::<f64>() / weight);
         // Corners of tangled hexahedra may cancel each other out.
         let mean = if mean > 0.05 * absolute { mean } else { absolute };
-        let factor = if mean > 0.0 && mean.is_finite() { libm::cbrt(mean) } else { 1.0 };
+        let root = if self.offsets.is_empty() { libm::cbrt } else { libm::sqrt };
+        let factor = if mean > 0.0 && mean.is_finite() { root(mean) } else { 1.0 };
         self.references.iter_mut().for_each(|r| *r = r.enlarged(factor));
+        if !self.offsets.is_empty() {
+            self.offsets.iter_mut().for_each(|offset| *offset *= factor);
+            self.mean *= factor;
+        }
     }
 
     pub(super) fn quality(&self, i: usize, points: &[Point]) -> f64 {
-        let edges = edges(points, self.corners[i]);
+        let edges = self.edges(i, points);
         match self.measure {
             Measure::ScaledJacobian => corner_soundness(&edges, self.mean, &AIM),
             Measure::MeanRatio => mean_ratio(&edges, &self.references[i]),
         }
+    }
+
+    /// How sound a cell is by what is `fair`, in −1..1: as its worst element.
+    pub(crate) fn soundness(&self, cell: usize, points: &[Point], fair: &Fair) -> f64 {
+        let own = cell * self.per_cell..(cell + 1) * self.per_cell;
+        let of = |i: usize| or_worst(corner_soundness(&self.edges(i, points), self.mean, fair));
+        own.map(of).fold(1.0, f64::min)
     }
 
     /// `f` of every element, on all threads.
@@ -242,7 +254,7 @@ impl Elements {
 
     /// `det J`.
     pub(super) fn det(&self, i: usize, points: &[Point]) -> f64 {
-        edges(points, self.corners[i]).determinant() * self.references[i].det
+        self.edges(i, points).determinant() * self.references[i].det
     }
 }
 
@@ -253,7 +265,7 @@ fn mean_ratio(edges: &Matrix3<f64>, reference: &Reference<f64>) -> f64 {
     if sum > 0.0 { 3.0 * root * root.abs() / sum } else { 0.0 }
 }
 
-fn check<const N: usize>(cells: &[[u32; N]], points: usize) -> Result<()> {
+pub(super) fn check<const N: usize>(cells: &[[u32; N]], points: usize) -> Result<()> {
     match cells.iter().position(|c| c.iter().any(|v| *v as usize >= points)) {
         None => Ok(()),
         Some(i) => Err(Error::new(ErrorKind::Mesh, format!("a vertex is not among the {points} of the mesh"))
@@ -287,43 +299,4 @@ fn corner_shapes(size: &[f64; 3]) -> [Matrix3<f64>; 8] {
         };
         Matrix3::from_diagonal(&Vector3::from(to.map(|to| size[along(to)])))
     })
-}
-
-/// The three edge lengths each hexahedron should have.
-fn box_sizes(hexes: &[[u32; 8]], points: &[Point], smoothing: usize) -> Vec<[f64; 3]> {
-    let (ids, mut lengths) = number_edges(hexes, points);
-    let mean = |lengths: &[f64], set: &[u32]| set.iter().map(|e| lengths[*e as usize]).sum::<f64>() / 4.0;
-    let all = |lengths: &[f64]| -> Vec<f64> { ids.iter().map(|set| mean(lengths, set)).collect() };
-    for _ in 0..smoothing {
-        let (mut sums, mut counts) = (vec![0.0; lengths.len()], vec![0_u32; lengths.len()]);
-        for (set, mean) in ids.iter().zip(all(&lengths)) {
-            for e in set {
-                sums[*e as usize] += mean;
-                counts[*e as usize] += 1;
-            }
-        }
-        lengths = sums.iter().zip(&counts).map(|(s, n)| s / f64::from(*n)).collect();
-    }
-    let floor = 1e-3 * lengths.iter().sum::<f64>() / lengths.len().max(1) as f64;
-    let positive = |l: f64| if l > floor { l } else { floor.max(f64::MIN_POSITIVE.sqrt()) };
-    all(&lengths).chunks_exact(3).map(|l| [l[0], l[1], l[2]].map(positive)).collect()
-}
-
-/// The edges of each set of four parallel ones, three sets a hexahedron; and the length of each edge. Linear time.
-fn number_edges(hexes: &[[u32; 8]], points: &[Point]) -> (Vec<[u32; 4]>, Vec<f64>) {
-    let all = hexes.iter().flat_map(|hex| EDGES.as_flattened().iter().map(|end| end.map(|k| hex[k])));
-    let ends: Vec<[u32; 2]> = all.map(|[a, b]| [a.min(b), a.max(b)]).collect();
-    let from = Stars::new(points.len(), ends.iter().map(|end| Some(end[0])));
-    let (mut ids, mut lengths) = (vec![[0; 4]; 3 * hexes.len()], Vec::new());
-    let mut own = Vec::new();
-    for v in 0..points.len() {
-        own.clear();
-        own.extend(from.of(v).iter().map(|&i| (ends[i as usize][1], i as usize)));
-        own.sort_unstable();
-        for edge in own.chunk_by(|a, b| a.0 == b.0) {
-            edge.iter().for_each(|&(_, i)| ids[i / 4][i % 4] = lengths.len() as u32);
-            lengths.push((points[v] - points[edge[0].0 as usize]).norm());
-        }
-    }
-    (ids, lengths)
 }

@@ -25,11 +25,13 @@ mod improve;
 mod lanes;
 mod lbfgs;
 mod local;
-
 mod optimisation;
 mod polish;
+mod rectangles;
 mod region;
 mod relax;
+mod room;
+mod sizes;
 #[cfg(test)]
 mod tests;
 mod untangle;
@@ -178,7 +180,10 @@ fn run(problem: &mut Optimisation, points: &mut Vec<Point>, settings: &Settings,
     problem.constraints.project(points);
     let mut valid = problem.assembly.census(points).inverted == 0;
     if !valid {
-        valid = untangle(problem, points, settings, &context.stage("untangle", 0.0, 0.4))?;
+        valid = untangle(problem, points, settings, &context.stage("untangle", 0.0, 0.3))?;
+    }
+    if !valid && settings.improve_rounds > 0 {
+        valid = room::make_room(problem, points, settings, &context.stage("untangle", 0.3, 0.4))?;
     }
     if valid && settings.improve_rounds + settings.polish_rounds > 0 {
         raise(problem, points, settings, context)?;

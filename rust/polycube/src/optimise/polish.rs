@@ -4,7 +4,6 @@ use super::elements::Elements;
 use super::freedom::Constraints;
 use crate::context::Context;
 use crate::error::Result;
-use crate::measure::edges;
 use crate::mesh::{Point, Stars};
 use nalgebra::Vector3;
 
@@ -124,7 +123,7 @@ fn worst(elements: &Elements, star: &mut [u32], points: &[Point], bar: f64) -> f
 
 fn shortest(elements: &Elements, star: &[u32], points: &[Point]) -> f64 {
     let each = |e: &u32| {
-        let edges = edges(points, elements.corners[*e as usize]);
+        let edges = elements.edges(*e as usize, points);
         (0..3).map(|i| edges.column(i).norm()).fold(f64::INFINITY, f64::min)
     };
     star.iter().map(each).fold(f64::INFINITY, f64::min)

@@ -5,7 +5,8 @@ use crate::error::Result;
 use crate::measure::Quality;
 use crate::measure::hausdorff::hausdorff;
 use crate::mesh::Mesh;
-use crate::remesh::fit::{Aim, Improved};
+use crate::optimise::Settings;
+use crate::remesh::fit::{Aim, Fitted, Improved, improve};
 use crate::remesh::map::LatticeMap;
 use crate::remesh::mesher::{Hexes, Layout, Quads, Remesher};
 use crate::remesh::options::RemeshOptions;
@@ -18,12 +19,11 @@ pub(crate) struct Meshed {
     pub(crate) layout: Layout,
     pub(crate) quads: Quads,
     pub(crate) hexes: Option<Hexes>,
-    /// That of the hexahedra; of no cell without them.
+    /// That of the hexahedra; without them of the quadrilaterals.
     pub(crate) quality: Quality,
-    /// How sound the worst hexahedron is; 1 without them.
+    /// How sound the worst of these is.
     pub(crate) soundness: f64,
-    /// How far the shape is from the surface; 0 if it is within the bound, as far as could be seen, or, without
-    /// hexahedra, within the length of a quadrilateral's side.
+    /// How far the shape is from the surface; 0 if it is within the bound, as far as could be seen.
     pub(crate) far: f64,
     /// Vertices that had to leave their corners and edges.
     pub(crate) released: usize,
@@ -34,7 +34,7 @@ pub(crate) struct Meshed {
 }
 
 impl Meshed {
-    /// How much of it is the wrong way round: of hexahedra, or of the map where there are none.
+    /// How much of it is the wrong way round: of its cells, and of the map where it is folded.
     pub(crate) fn bad(&self) -> usize {
         self.quality.inverted + self.folded
     }
@@ -45,20 +45,47 @@ pub(crate) fn mesh_surface(
     map: &LatticeMap,
     shape: &Mesh,
     folded: usize,
+    options: &RemeshOptions,
     stages: &mut Stages,
     context: &Context,
 ) -> Result<Meshed> {
     let start = Instant::now();
-    let remesher = Remesher::new(map, shape, &context.stage("mesh", 0.0, 0.5))?;
-    let quads = remesher.quads(&context.stage("mesh", 0.5, 0.8))?;
-    let points = remesher.surface_points(&context.stage("mesh", 0.8, 1.0))?.points;
-    let layout = Layout { blocks: None, ..remesher.layout(&points, 0)? };
-    // A distorted map may be one to one and still lead quadrilaterals astray.
-    let distance = if quads.quality().inverted > 0 { hausdorff(&quads.mesh, shape, context)? } else { 0.0 };
-    let far = if distance > quads.mean_side() { distance } else { 0.0 };
-    stages.mesh += start.elapsed().as_secs_f64();
-    let quality = Quality::new(Vec::new());
-    Ok(Meshed { layout, quads, hexes: None, quality, soundness: 1.0, far, released: 0, spaced: false, folded })
+    let remesher = Remesher::new(map, shape, &context.stage("mesh", 0.0, 0.1))?;
+    let mut quads = remesher.quads(&context.stage("mesh", 0.1, 0.2))?;
+    let optimising = Instant::now();
+    stages.mesh += (optimising - start).as_secs_f64();
+    let bound = options.distance_bound(shape);
+    let improved = improve_quads(&remesher, &mut quads, shape, bound, &context.stage("optimise", 0.2, 1.0))?;
+    stages.optimise += optimising.elapsed().as_secs_f64();
+    let Improved { released, far, soundness } = improved;
+    let layout = Layout { blocks: None, ..remesher.layout(&remesher.points_of(&quads), 0)? };
+    let quality = quads.quality();
+    Ok(Meshed { layout, quads, hexes: None, quality, soundness, far, released, spaced: false, folded })
+}
+
+/// Improves quadrilaterals; where that leaves the shape too far away, they stay as they were mapped if they are nearer
+/// then and none is inverted.
+fn improve_quads(
+    remesher: &Remesher,
+    quads: &mut Quads,
+    shape: &Mesh,
+    bound: f64,
+    context: &Context,
+) -> Result<Improved> {
+    let mapped = quads.clone();
+    let fitted = Fitted { mesh: &mut quads.mesh, carriers: &quads.carriers, facets: &remesher.facets() };
+    let (settings, aim) = (Settings::default(), Aim::Within(bound));
+    let improved =
+        improve(&remesher.map.polycube, fitted, remesher.shape, &settings, aim, &context.stage("optimise", 0.0, 0.9))?;
+    let worst = mapped.quality().worst;
+    if improved.far > 0.0 && worst > 0.0 {
+        let far = hausdorff(&mapped.mesh, shape, &context.stage("optimise", 0.9, 1.0))?;
+        if far < improved.far {
+            *quads = mapped;
+            return Ok(Improved { released: 0, far: if far > bound { far } else { 0.0 }, soundness: worst });
+        }
+    }
+    Ok(improved)
 }
 
 /// The hexahedra of a solid with the quadrilaterals and patches of their surface.
@@ -77,8 +104,14 @@ pub(crate) fn mesh_volume(
     let optimising = Instant::now();
     stages.mesh += (optimising - start).as_secs_f64();
     let bound = options.distance_bound(shape);
-    let Improved { released, far } =
-        finish(coarse, &remesher, &mut hexes, Aim::Within(bound), &context.stage("optimise", 0.2, 0.97))?;
+    let Improved { released, far, .. } = finish(
+        coarse,
+        &remesher,
+        &mut hexes,
+        options.padding,
+        Aim::Within(bound),
+        &context.stage("optimise", 0.2, 0.97),
+    )?;
     stages.optimise += optimising.elapsed().as_secs_f64();
     let context = context.stage("mesh", 0.97, 1.0);
     context.tick(0.0)?;

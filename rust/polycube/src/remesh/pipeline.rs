@@ -36,9 +36,9 @@ pub struct Remeshed {
 /// The map from shape to polycube is made one to one on every facet; the lattice of the wanted size is mapped back
 /// through it, padded, and optimised with the surface sliding on the shape until no hexahedron is inverted and the
 /// worst is as good as can be had; where the mesh cuts off more of the shape than the bound, surface vertices are put
-/// there. Levels are spaced by the shape, unless the scale is given. Where inverted hexahedra remain or the surface is
-/// farther from the shape than asked for, the result is given all the same and the report says so. Without a shape the
-/// polycube itself is meshed.
+/// there. Of a surface alone the quadrilaterals are optimised the same way. Levels are spaced by the shape, unless the
+/// scale is given. Where inverted hexahedra remain or the surface is farther from the shape than asked for, the result
+/// is given all the same and the report says so. Without a shape the polycube itself is meshed.
 ///
 /// The result is the same for any number of threads.
 ///
@@ -170,7 +170,7 @@ fn best(
         let share = (1.0 - done) / 2.0;
         let context = context.stage("mesh", done, done + share);
         let mut meshed = if options.surface_only {
-            mesh_surface(&map, &shape, folded, stages, &context)?
+            mesh_surface(&map, &shape, folded, options, stages, &context)?
         } else {
             mesh_volume(&map, &shape, coarse, options, stages, &context)?
         };

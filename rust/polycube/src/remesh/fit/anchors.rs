@@ -5,12 +5,12 @@
 
 use super::chord_error::ON;
 use super::distant_points::DistantPoint;
-use super::fitting::{Fitting, SMOOTHING};
+use super::fitting::{Fitting, elements};
 use super::sliding::Hold;
 use crate::context::Context;
 use crate::error::Result;
 use crate::mesh::{Face, Point, Stars};
-use crate::optimise::{Elements, Freedom, Settings};
+use crate::optimise::{Freedom, Settings};
 
 /// How often more vertices are held.
 const ROUNDS: usize = 3;
@@ -46,7 +46,7 @@ impl<'a> Anchors<'a> {
         let before = self.held.len();
         for distant in found {
             let Some(v) = self.nearest(&distant.at) else { continue };
-            let (from, carrier) = (self.start[v as usize], fitting.hexes.carriers[v as usize]);
+            let (from, carrier) = (self.start[v as usize], fitting.fitted.carriers[v as usize]);
             let may =
                 fitting.guide_through(v, &distant.at, tolerance).is_some() || fitting.sliding.is_smooth(carrier, &from);
             if self.taken[v as usize] || (from - distant.at).norm() >= distant.distance || !may {
@@ -86,24 +86,24 @@ impl Fitting<'_> {
         settings: &Settings,
         context: &Context,
     ) -> Result<f64> {
-        let faces = self.hexes.mesh.cells().boundary()?;
+        let faces = self.fitted.mesh.cells().boundary()?;
         let mut anchors = Anchors::new(start, &faces);
         for round in 0..ROUNDS {
             let [from, to] = [round, round + 1].map(|r| r as f64 / ROUNDS as f64);
             let context = context.stage("fit", from, to);
-            let worst = self.hexes.soundness().worst;
+            let worst = self.soundness();
             if far == 0.0 || worst <= 0.0 {
                 break;
             }
             let found = self.distant_points(&faces, samples, bound, &context)?;
-            let before = (self.hexes.mesh.points().to_vec(), self.freedom.clone(), self.released);
+            let before = (self.points().to_vec(), self.freedom.clone(), self.released);
             if anchors.add(self, &found, ON * bound) == 0 {
                 break;
             }
-            self.start_again(start, &anchors, settings, &context)?;
+            self.start_again(start, &anchors, samples, settings, &context)?;
             let left = self.limit_chord_error(samples, bound, settings, &context)?;
-            if left > LEFT * far || self.hexes.soundness().worst < SOUND.min(worst) {
-                self.hexes.mesh.points_mut().copy_from_slice(&before.0);
+            if left > LEFT * far || self.soundness() < SOUND.min(worst) {
+                self.points_mut().copy_from_slice(&before.0);
                 (self.freedom, self.released) = (before.1, before.2);
                 break;
             }
@@ -117,18 +117,19 @@ impl Fitting<'_> {
         &mut self,
         start: &[Point],
         anchors: &Anchors,
+        samples: &[Point],
         settings: &Settings,
         context: &Context,
     ) -> Result<()> {
-        self.freedom = self.sliding.freedoms(&self.hexes.carriers, Hold::Corners);
+        self.freedom = self.sliding.freedoms(self.fitted.carriers, Hold::Corners);
         self.released = 0;
-        self.hexes.mesh.points_mut().copy_from_slice(start);
-        anchors.hold(self.hexes.mesh.points_mut(), &mut self.freedom);
-        self.elements = Elements::fair_boxes_like(self.hexes.cells(), self.hexes.mesh.points(), SMOOTHING)?;
-        let inside = self.sliding.freedoms(&self.hexes.carriers, Hold::Surface);
+        self.points_mut().copy_from_slice(start);
+        anchors.hold(self.fitted.mesh.points_mut(), &mut self.freedom);
+        self.elements = elements(&self.fitted, self.sliding, self.points(), true)?;
+        let inside = self.sliding.freedoms(self.fitted.carriers, Hold::Surface);
         let untangling = Settings { improve_rounds: 0, polish_rounds: 0, ..settings.clone() };
         self.run(&inside, &untangling, context)?;
         self.run(&self.freedom.clone(), &untangling, context)?;
-        self.passes(settings, context)
+        self.passes(samples, settings, context)
     }
 }

@@ -4,7 +4,6 @@ use super::distant_points::{DistantPoint, distant_points};
 use super::fitting::{Fitting, POOR};
 use crate::context::Context;
 use crate::error::Result;
-use crate::measure::soundness;
 use crate::mesh::{Face, Point, Stars};
 use crate::optimise::{Freedom, Settings};
 
@@ -66,14 +65,14 @@ impl Fitting<'_> {
         settings: &Settings,
         context: &Context,
     ) -> Result<f64> {
-        let mut worst = self.hexes.soundness().worst;
+        let mut worst = self.soundness();
         if worst <= 0.0 {
             return Ok(f64::INFINITY);
         }
         context.check()?;
         let around = self.around();
-        let faces = self.hexes.mesh.cells().boundary()?;
-        let start = self.hexes.mesh.points().to_vec();
+        let faces = self.fitted.mesh.cells().boundary()?;
+        let start = self.points().to_vec();
         let mut held = self.freedom.clone();
         let mut pull = Pull::Bold;
         let mut found = self.distant_points(&faces, samples, bound, context)?;
@@ -84,13 +83,13 @@ impl Fitting<'_> {
         for round in 0..ROUNDS {
             let Some(farthest) = found.first().map(|g| g.distance).filter(|d| *d > bound) else { return Ok(0.0) };
             let [from, to] = [round, round + 1].map(|r| r as f64 / ROUNDS as f64);
-            let before = (self.hexes.mesh.points().to_vec(), held.clone());
+            let before = (self.points().to_vec(), held.clone());
             self.pull_all(&found, ON * bound, pull, &around, &mut held);
             context.check()?;
             self.resize()?;
             self.run(&held, settings, &context.stage("fit", from, to))?;
             let left = self.distant_points(&faces, samples, bound, context)?;
-            let reached = self.hexes.soundness().worst;
+            let reached = self.soundness();
             let enough = bound + LEFT * (farthest - bound);
             if left.first().is_none_or(|g| g.distance < enough) && reached > POOR.min(KEPT * worst) {
                 worst = worst.max(reached);
@@ -99,7 +98,7 @@ impl Fitting<'_> {
             }
             // Reached by hexahedra that are poor but not inverted, it is no better reached more gently.
             let is_vain = left.is_empty() && reached > 0.0;
-            self.hexes.mesh.points_mut().copy_from_slice(&before.0);
+            self.points_mut().copy_from_slice(&before.0);
             held = before.1;
             let Some(next) = pull.next().filter(|_| !is_vain) else { break };
             pull = next;
@@ -107,7 +106,7 @@ impl Fitting<'_> {
         if found.first().is_none_or(|g| g.distance <= bound) {
             return Ok(0.0);
         }
-        self.hexes.mesh.points_mut().copy_from_slice(&start);
+        self.points_mut().copy_from_slice(&start);
         Ok(far)
     }
 
@@ -119,7 +118,7 @@ impl Fitting<'_> {
         context: &Context,
     ) -> Result<Vec<DistantPoint>> {
         distant_points(
-            (&self.hexes.mesh, faces),
+            (&*self.fitted.mesh, faces),
             (self.whole(), samples),
             NEARER * bound,
             &context.stage("fit", 0.0, 0.0),
@@ -149,29 +148,29 @@ impl Fitting<'_> {
     ) -> bool {
         let DistantPoint { at, face, .. } = distant;
         let mut corners: Vec<u32> = face.vertices().to_vec();
-        let distance = |v: u32| (self.hexes.mesh.points()[v as usize] - at).norm();
+        let distance = |v: u32| (self.points()[v as usize] - at).norm();
         corners.sort_by(|a, b| distance(*a).total_cmp(&distance(*b)));
         let through = |v: u32| Some((v as usize, self.guide_through(v, at, tolerance)?));
         let Some((v, guide)) = corners.into_iter().find_map(through) else { return false };
-        let (from, least) = (self.hexes.mesh.points()[v], KEPT_AROUND * self.worst_of(around.of(v)));
+        let (from, least) = (self.points()[v], KEPT_AROUND * self.worst_of(around.of(v)));
         for &part in pull.parts() {
-            self.hexes.mesh.points_mut()[v] = guide.contact(&from.lerp(at, part)).point;
+            self.points_mut()[v] = guide.contact(&from.lerp(at, part)).point;
             if pull != Pull::Careful || self.worst_of(around.of(v)) > least {
                 held[v] = Freedom::Fixed;
                 return true;
             }
         }
-        self.hexes.mesh.points_mut()[v] = from;
+        self.points_mut()[v] = from;
         false
     }
 
-    /// The hexahedra around each vertex.
+    /// The cells around each vertex.
     fn around(&self) -> Stars {
-        Stars::new(self.freedom.len(), self.hexes.cells().iter().copied())
+        let cells = self.fitted.mesh.cells();
+        Stars::new(self.freedom.len(), (0..cells.len()).map(|cell| cells.cell(cell).iter().copied()))
     }
 
     fn worst_of(&self, cells: &[u32]) -> f64 {
-        let (all, mean) = (self.hexes.cells(), self.elements.mean_determinant());
-        cells.iter().map(|&c| soundness(self.hexes.mesh.points(), &all[c as usize], mean)).fold(1.0, f64::min)
+        cells.iter().map(|&cell| self.soundness_of(cell as usize)).fold(1.0, f64::min)
     }
 }

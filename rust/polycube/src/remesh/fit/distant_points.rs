@@ -27,6 +27,13 @@ pub(crate) fn samples(surface: &Surface, shape: &[Point]) -> Vec<Point> {
     vertices.chain(surface.faces().iter().map(|f| f.middle(shape))).collect()
 }
 
+/// How far the farthest of some samples of a shape is from the `faces` of a mesh. O(n log n).
+pub(crate) fn farthest(points: &[Point], faces: &[Face], samples: &[Point]) -> f64 {
+    let triangles = faces.iter().flat_map(Face::triangles).map(|t| t.map(|v| points[v as usize]));
+    let index = Nearest::new(triangles);
+    samples.par_iter().map(|p| index.distance(p)).reduce(|| 0.0, f64::max)
+}
+
 /// Where samples of a shape are farther than `bound` from the `faces` around a `mesh`, or those of its faces from the
 /// `shape`, the farthest first: the samples that [`hausdorff`](hausdorff::hausdorff) takes. O(n log n).
 ///

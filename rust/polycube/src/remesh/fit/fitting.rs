@@ -1,42 +1,80 @@
-//! A hexahedral mesh on the way to be improved, with its surface on that of the shape.
+//! A mesh on the way to be improved, with its surface on that of the shape.
 
 use super::sliding::Sliding;
 use crate::context::Context;
 use crate::error::Result;
-use crate::measure::soundness;
-use crate::mesh::Point;
+use crate::measure::{ACCEPTED, mean_determinant, soundness};
+use crate::mesh::{Cells, Mesh, Point};
 use crate::optimise::{Elements, Freedom, Guide, Settings, optimise};
 use crate::remesh::lattice::Carrier;
-use crate::remesh::mesher::Hexes;
 use rayon::prelude::*;
 
-/// How often the sizes that hexahedra should have are averaged with those around.
+/// How often the sizes that cells should have are averaged with those around.
 pub(crate) const SMOOTHING: usize = 3;
-/// A trial with more than this part of its hexahedra inverted leads to nothing.
+/// A trial with more than this part of its cells inverted leads to nothing.
 const HOPELESS: f64 = 0.01;
-/// Hexahedra less sound than this may have vertices released where the shape is smooth.
+/// Cells less sound than this may have vertices released where the shape is smooth.
 pub(crate) const POOR: f64 = 0.6;
+
+/// What is made to fit: hexahedra, or the quadrilaterals of a surface alone.
+pub(crate) struct Fitted<'a> {
+    pub(crate) mesh: &'a mut Mesh,
+    /// What each vertex lies on.
+    pub(crate) carriers: &'a [Carrier],
+    /// The facet of each quadrilateral; none of hexahedra.
+    pub(crate) facets: &'a [u32],
+}
 
 /// A mesh on the way to be improved.
 pub(crate) struct Fitting<'a> {
     pub(crate) elements: Elements,
     pub(crate) guides: Vec<&'a dyn Guide>,
     pub(crate) sliding: &'a Sliding,
-    pub(crate) hexes: &'a mut Hexes,
+    pub(crate) fitted: Fitted<'a>,
     pub(crate) freedom: Vec<Freedom>,
     pub(crate) released: usize,
 }
 
 impl<'a> Fitting<'a> {
-    /// Whether many hexahedra are inverted.
+    pub(crate) fn points(&self) -> &[Point] {
+        self.fitted.mesh.points()
+    }
+
+    pub(crate) fn points_mut(&mut self) -> &mut [Point] {
+        self.fitted.mesh.points_mut()
+    }
+
+    /// How sound a cell is.
+    pub(crate) fn soundness_of(&self, cell: usize) -> f64 {
+        self.elements.soundness(cell, self.points(), &ACCEPTED)
+    }
+
+    /// How many cells are inverted.
+    pub(crate) fn inverted(&self) -> usize {
+        (0..self.fitted.mesh.cells().len()).filter(|&cell| self.soundness_of(cell) <= 0.0).count()
+    }
+
+    /// How sound the worst cell is.
+    pub(crate) fn soundness(&self) -> f64 {
+        let (points, cells) = (self.points(), self.fitted.mesh.cells());
+        match cells {
+            Cells::Hexahedra(hexes) => {
+                let mean = mean_determinant(points, hexes);
+                hexes.iter().map(|hex| soundness(points, hex, mean)).fold(1.0, f64::min)
+            }
+            _ => (0..cells.len()).map(|cell| self.soundness_of(cell)).fold(1.0, f64::min),
+        }
+    }
+
+    /// Whether many cells are inverted.
     pub(crate) fn is_hopeless(&self) -> bool {
-        self.hexes.quality().inverted as f64 > HOPELESS * self.hexes.cells().len() as f64
+        self.inverted() as f64 > HOPELESS * self.fitted.mesh.cells().len() as f64
     }
 
     /// Puts every surface vertex on what it slides on.
     pub(crate) fn project(&mut self) {
         let guides = &self.guides;
-        let each = self.hexes.mesh.points_mut().par_iter_mut().zip(&self.freedom).with_min_len(256);
+        let each = self.fitted.mesh.points_mut().par_iter_mut().zip(&self.freedom).with_min_len(256);
         each.for_each(|(point, freedom)| {
             if let Freedom::Guided(g) = freedom {
                 *point = guides[*g as usize].contact(point).point;
@@ -50,18 +88,18 @@ impl<'a> Fitting<'a> {
         Some(self.guides[g as usize]).filter(|g| (g.contact(at).point - at).norm() <= tolerance)
     }
 
-    /// One optimisation; how many hexahedra are inverted after it.
+    /// One optimisation; how many cells are inverted after it.
     pub(crate) fn run(&mut self, freedom: &[Freedom], settings: &Settings, context: &Context) -> Result<usize> {
-        let points = self.hexes.mesh.points_mut();
+        let points = self.fitted.mesh.points_mut();
         Ok(optimise(points, &self.elements, freedom, &self.guides, settings, context)?.inverted_after)
     }
 
-    /// Lets vertices of hexahedra whose soundness is `bar` or less slide on all of the surface, where `may` agrees.
+    /// Lets vertices of cells whose soundness is `bar` or less slide on all of the surface, where `may` agrees.
     pub(crate) fn release(&mut self, bar: f64, may: impl Fn(&Sliding, Carrier, &Point) -> bool) {
-        let Hexes { mesh, carriers, .. } = &*self.hexes;
-        let mean = self.elements.mean_determinant();
-        let bad = self.hexes.cells().iter().filter(|c| soundness(mesh.points(), c, mean) <= bar);
-        for v in bad.flatten().map(|&v| v as usize) {
+        let Fitted { mesh, carriers, .. } = &self.fitted;
+        let bad = (0..mesh.cells().len()).filter(|&cell| self.soundness_of(cell) <= bar);
+        let vertices: Vec<u32> = bad.flat_map(|cell| mesh.cells().cell(cell).iter().copied()).collect();
+        for v in vertices.into_iter().map(|v| v as usize) {
             let bound = matches!(carriers[v], Carrier::Corner(_) | Carrier::Edge(_));
             let free = self.freedom[v] == self.sliding.released();
             if bound && !free && may(self.sliding, carriers[v], &mesh.points()[v]) {
@@ -76,13 +114,25 @@ impl<'a> Fitting<'a> {
         self.sliding.whole()
     }
 
-    /// Asks for boxes of the sizes that the hexahedra have by now.
+    /// Asks for cells of the sizes that they have by now.
     pub(crate) fn resize(&mut self) -> Result<()> {
-        let (cells, points) = (self.hexes.cells(), self.hexes.mesh.points());
         // What is tangled is best untangled towards what it is; only then it makes sense to ask for fair sizes.
-        let tangled = self.hexes.quality().inverted > 0;
-        let like = if tangled { Elements::boxes_like } else { Elements::fair_boxes_like };
-        self.elements = like(cells, points, SMOOTHING)?;
+        self.elements = elements(&self.fitted, self.sliding, self.points(), self.inverted() == 0)?;
         Ok(())
+    }
+}
+
+/// What the cells should look like: boxes or rectangles of the sizes they have in `points`, but, where it `is_fair`,
+/// none that is thin.
+pub(crate) fn elements(fitted: &Fitted, sliding: &Sliding, points: &[Point], is_fair: bool) -> Result<Elements> {
+    match fitted.mesh.cells() {
+        Cells::Hexahedra(hexes) if is_fair => Elements::fair_boxes_like(hexes, points, SMOOTHING),
+        Cells::Hexahedra(hexes) => Elements::boxes_like(hexes, points, SMOOTHING),
+        Cells::Quads(quads) => {
+            let normals: Vec<_> =
+                quads.iter().zip(fitted.facets).map(|(quad, &facet)| sliding.normal(facet, quad, points)).collect();
+            Elements::rectangles_like(quads, points, &normals, SMOOTHING, is_fair)
+        }
+        _ => Ok(Elements::regular_tetrahedra(&[])),
     }
 }

@@ -1,13 +1,12 @@
 //! Optimises hexahedra with their surface on that of the shape.
 
-use super::distant_points::samples;
-use super::fitting::{Fitting, POOR, SMOOTHING};
+use super::distant_points::{farthest, samples};
+use super::fitting::{Fitted, Fitting, POOR, elements};
 use super::sliding::{Hold, Sliding};
 use crate::context::Context;
 use crate::error::Result;
 use crate::mesh::Point;
-use crate::optimise::{Elements, Settings, optimise};
-use crate::remesh::mesher::Hexes;
+use crate::optimise::{Settings, optimise};
 use crate::structure::Polycube;
 
 /// Most passes of the optimiser over a mesh: each asks for boxes of the sizes that the one before led to.
@@ -18,8 +17,11 @@ const LEAST_GAIN: f64 = 0.015;
 const LEFT: f64 = 0.5;
 /// Most rounds of untangling after the vertices in the way were released.
 const LATE_ROUNDS: usize = 15;
+/// More of the shape is lost where it is so many times farther from the mesh than before.
+const LOST: f64 = 1.25;
 /// How often vertices of inverted hexahedra are released.
 const RELEASES: usize = 4;
+
 /// What a mesh is for.
 #[derive(Clone, Copy, PartialEq)]
 pub(crate) enum Aim {
@@ -39,6 +41,8 @@ pub(crate) struct Improved {
     pub(crate) released: usize,
     /// How far the shape is from the mesh; 0 if it is as near as it shall be.
     pub(crate) far: f64,
+    /// How sound the worst cell is.
+    pub(crate) soundness: f64,
 }
 
 /// Moves the vertices of a mesh until no hexahedron is inverted and the worst is as good as can be had.
@@ -50,39 +54,40 @@ pub(crate) struct Improved {
 /// farther, the mesh is made again with vertices held there from the start.
 pub(crate) fn improve(
     polycube: &Polycube,
-    hexes: &mut Hexes,
+    fitted: Fitted,
     shape: &[Point],
     settings: &Settings,
     aim: Aim,
     context: &Context,
 ) -> Result<Improved> {
     let sliding = Sliding::new(polycube, shape, &context.stage("untangle", 0.0, 0.0))?;
-    let elements = Elements::fair_boxes_like(hexes.cells(), hexes.mesh.points(), SMOOTHING)?;
-    let start = hexes.mesh.points().to_vec();
+    let start = fitted.mesh.points().to_vec();
+    let fair = elements(&fitted, &sliding, &start, true)?;
     context.stage("untangle", 0.0, 0.0).tick(0.0)?;
-    let freedom = sliding.freedoms(&hexes.carriers, Hold::Corners);
-    let mut fitting = Fitting { elements, guides: sliding.guides(), sliding: &sliding, hexes, freedom, released: 0 };
+    let freedom = sliding.freedoms(fitted.carriers, Hold::Corners);
+    let mut fitting =
+        Fitting { elements: fair, guides: sliding.guides(), sliding: &sliding, fitted, freedom, released: 0 };
     fitting.untangle(settings, aim != Aim::Trial, &context.stage("untangle", 0.0, 0.2))?;
-    if aim != Aim::Trial && fitting.hexes.quality().inverted > 0 {
+    if aim != Aim::Trial && fitting.inverted() > 0 {
         // Fair sizes may not be to be had: then those there are.
-        fitting.elements = Elements::boxes_like(fitting.hexes.cells(), &start, SMOOTHING)?;
-        fitting.freedom = sliding.freedoms(&fitting.hexes.carriers, Hold::Corners);
+        fitting.elements = elements(&fitting.fitted, &sliding, &start, false)?;
+        fitting.freedom = sliding.freedoms(fitting.fitted.carriers, Hold::Corners);
         fitting.released = 0;
-        fitting.hexes.mesh.points_mut().copy_from_slice(&start);
+        fitting.points_mut().copy_from_slice(&start);
         fitting.untangle(settings, true, &context.stage("untangle", 0.2, 0.4))?;
     }
     if aim == Aim::Trial && fitting.is_hopeless() {
-        return Ok(Improved { released: fitting.released, far: 0.0 });
+        return Ok(Improved { released: fitting.released, far: 0.0, soundness: fitting.soundness() });
     }
-    fitting.passes(settings, &context.stage("optimise", 0.4, 0.8))?;
+    let samples = samples(&polycube.surface, shape);
+    fitting.passes(&samples, settings, &context.stage("optimise", 0.4, 0.8))?;
     let mut far = 0.0;
     if let Aim::Within(bound) = aim {
         let settings = Settings { untangle_rounds: settings.untangle_rounds.min(LATE_ROUNDS), ..settings.clone() };
-        let samples = samples(&polycube.surface, shape);
         far = fitting.limit_chord_error(&samples, bound, &settings, &context.stage("optimise", 0.8, 0.9))?;
         far = fitting.anchor(&start, (&samples, bound), far, &settings, &context.stage("optimise", 0.9, 1.0))?;
     }
-    Ok(Improved { released: fitting.released, far })
+    Ok(Improved { released: fitting.released, far, soundness: fitting.soundness() })
 }
 
 impl Fitting<'_> {
@@ -98,7 +103,7 @@ impl Fitting<'_> {
         };
         self.project();
         for (hold, part) in [(Hold::Surface, 0.0), (Hold::Edges, 0.3)] {
-            let freedom = self.sliding.freedoms(&self.hexes.carriers, hold);
+            let freedom = self.sliding.freedoms(self.fitted.carriers, hold);
             if self.run(&freedom, &first, &context.stage("untangle", part, part + 0.3))? == 0 {
                 return Ok(());
             }
@@ -117,19 +122,36 @@ impl Fitting<'_> {
         Ok(())
     }
 
-    /// Passes of the optimiser, until one gains little.
-    pub(super) fn passes(&mut self, settings: &Settings, context: &Context) -> Result<()> {
+    /// Whether the shape with these `samples` is much farther from the mesh than when its vertices were `before`.
+    fn loses(&self, samples: &[Point], before: &[Point]) -> Result<bool> {
+        let faces = self.fitted.mesh.cells().boundary()?;
+        let [then, now] = [before, self.points()].map(|points| farthest(points, &faces, samples));
+        Ok(now > LOST * then)
+    }
+
+    /// Passes of the optimiser, until one gains little. Vertices of poor cells are released, unless that loses more of
+    /// the shape, whose `samples` say so: what sticks out may be more worth than good cells.
+    pub(super) fn passes(&mut self, samples: &[Point], settings: &Settings, context: &Context) -> Result<()> {
         let settings = Settings { untangle_rounds: settings.untangle_rounds.min(LATE_ROUNDS), ..settings.clone() };
+        let mut may_release = true;
         for pass in 0..PASSES {
             let [from, to] = [pass, pass + 1].map(|p| p as f64 / PASSES as f64);
             context.tick(from)?;
             self.resize()?;
             context.tick(from)?;
-            let before = self.released;
-            self.release(POOR, Sliding::is_smooth);
-            let points = self.hexes.mesh.points_mut();
+            let (before, start) = (self.released, (self.points().to_vec(), self.freedom.clone()));
+            if may_release {
+                self.release(POOR, Sliding::is_smooth);
+            }
+            let points = self.fitted.mesh.points_mut();
             let context = context.stage("optimise", from, to);
             let done = optimise(points, &self.elements, &self.freedom, &self.guides, &settings, &context)?;
+            if self.released > before && self.loses(samples, &start.0)? {
+                (self.released, may_release) = (before, false);
+                self.points_mut().copy_from_slice(&start.0);
+                self.freedom = start.1;
+                continue;
+            }
             let gain = done.worst_after - done.worst_before + done.average_after - done.average_before;
             let stuck = done.inverted_after as f64 > LEFT * done.inverted_before as f64;
             if stuck || gain < LEAST_GAIN && self.released == before {

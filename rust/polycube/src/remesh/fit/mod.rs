@@ -1,4 +1,5 @@
-//! Hexahedra made to fit the shape: optimised with their surface on that of the shape, and near to it everywhere.
+//! Hexahedra, or the quadrilaterals of a surface alone, made to fit the shape: optimised with their surface on that of
+//! the shape, and near to it everywhere.
 
 mod anchors;
 mod chord_error;
@@ -7,4 +8,5 @@ mod fitting;
 mod improve;
 mod sliding;
 
+pub(crate) use fitting::Fitted;
 pub(crate) use improve::{Aim, Improved, improve};

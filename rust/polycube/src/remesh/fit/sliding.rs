@@ -6,6 +6,7 @@ use crate::mesh::Point;
 use crate::optimise::{CurveGuide, Freedom, Guide, SurfaceGuide, Tangent};
 use crate::remesh::lattice::Carrier;
 use crate::structure::{Polycube, Structure};
+use nalgebra::Vector3;
 
 /// Which surface vertices stay where they are.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
@@ -65,6 +66,18 @@ impl Sliding {
     /// All of the surface.
     pub(crate) fn whole(&self) -> &dyn Guide {
         &self.whole
+    }
+
+    /// The unit normal of the shape where a quadrilateral of `facet` lies: the mean at its vertices and its middle.
+    pub(crate) fn normal(&self, facet: u32, quad: &[u32; 4], points: &[Point]) -> Vector3<f64> {
+        let corners = quad.map(|v| points[v as usize]);
+        let middle = Point::from(corners.iter().map(|p| p.coords).sum::<Vector3<f64>>() / 4.0);
+        let normal = |p: &Point| match self.facets[facet as usize].contact(p).tangent {
+            Tangent::Plane(n) => n,
+            _ => Vector3::zeros(),
+        };
+        let sum: Vector3<f64> = corners.iter().chain([&middle]).map(normal).sum();
+        sum.try_normalize(0.0).unwrap_or_default()
     }
 
     /// A vertex that may slide on all of the surface.

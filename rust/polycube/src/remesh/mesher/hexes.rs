@@ -1,13 +1,14 @@
 //! Hexahedra: the lattice mapped into the shape, with padding around it (paper, section 7).
 
 use super::embedding::Embedding;
+use super::quads::Quads;
 use super::remesher::Remesher;
 use crate::context::Context;
 use crate::error::{Error, ErrorKind, Result};
 use crate::measure::{CellMeasures, Quality, mean_determinant, scaled_jacobian, soundness};
 use crate::mesh::{CellField, Cells, HexFace, Mesh, Point};
 use crate::remesh::lattice::{BoundaryFace, Carrier, Grid, Padding, too_fine};
-use crate::remesh::map::{fill_inside, interpolate};
+use crate::remesh::map::{VolumeMap, fill_inside, interpolate};
 
 /// Most padding layers there can be.
 pub(crate) const MAX_PADDING: usize = 16;
@@ -89,17 +90,38 @@ impl Remesher<'_> {
     /// [`ErrorKind::Cancelled`]; [`ErrorKind::Internal`] if a solver fails.
     pub(crate) fn hexes(&self, padding: usize, context: &Context) -> Result<Hexes> {
         check_size(&self.grid, padding)?;
-        let mut outer = self.surface_points(&context.stage("map", 0.0, 0.3))?;
-        self.place_inside(&mut outer, &context.stage("map", 0.3, 0.9))?;
+        let outer = self.surface_points(&context.stage("map", 0.0, 0.3))?;
+        self.filled(outer, self.volume(), padding, &context.stage("map", 0.3, 1.0))
+    }
+
+    /// The same with the surface where `quads` has it, which may have moved; the inside is solved for.
+    ///
+    /// # Errors
+    /// Those of [`hexes`](Self::hexes).
+    pub(crate) fn hexes_within(&self, quads: &Quads, padding: usize, context: &Context) -> Result<Hexes> {
+        check_size(&self.grid, padding)?;
+        let outer = Embedding { points: self.points_of(quads), guessed: quads.guessed };
+        self.filled(outer, None, padding, context)
+    }
+
+    /// The mesh around which the surface lies already.
+    fn filled(
+        &self,
+        mut outer: Embedding,
+        volume: Option<&VolumeMap>,
+        padding: usize,
+        context: &Context,
+    ) -> Result<Hexes> {
+        self.place_inside(&mut outer, volume, &context.stage("map", 0.0, 0.9))?;
         if padding == 0 {
             return self.unpadded(outer);
         }
-        self.padded(outer, padding, &context.stage("padding", 0.9, 1.0))
+        self.padded(outer, volume, padding, &context.stage("padding", 0.9, 1.0))
     }
 
     /// Fills in the inner vertices.
-    fn place_inside(&self, embedding: &mut Embedding, context: &Context) -> Result<()> {
-        let Some(volume) = self.volume() else {
+    fn place_inside(&self, embedding: &mut Embedding, volume: Option<&VolumeMap>, context: &Context) -> Result<()> {
+        let Some(volume) = volume else {
             return fill_inside(&self.grid, &mut embedding.points, context);
         };
         for (v, _) in self.grid.carriers.iter().enumerate().filter(|(_, carrier)| !carrier.is_surface()) {
@@ -127,13 +149,19 @@ impl Remesher<'_> {
         })
     }
 
-    fn padded(&self, mut embedding: Embedding, layers: usize, context: &Context) -> Result<Hexes> {
+    fn padded(
+        &self,
+        mut embedding: Embedding,
+        volume: Option<&VolumeMap>,
+        layers: usize,
+        context: &Context,
+    ) -> Result<Hexes> {
         let grid = &self.grid;
         let padding = Padding::new(grid, layers);
         let mut polycube: Vec<Point> = (0..grid.vertices.len()).map(|v| Point::from(grid.position(v))).collect();
         let mut carriers = vec![Carrier::Inside; grid.vertices.len()];
         let outer: Vec<Point> = padding.ring.iter().map(|&v| embedding.points[v as usize]).collect();
-        let lattice = self.volume().is_none().then(|| embedding.points.clone());
+        let lattice = volume.is_none().then(|| embedding.points.clone());
         for layer in 0..=layers {
             for (i, &v) in padding.ring.iter().enumerate() {
                 context.tick_every(layer * padding.ring.len() + i, (layers + 1) * padding.ring.len())?;
@@ -145,7 +173,7 @@ impl Remesher<'_> {
                 } else if let Some(points) = &lattice {
                     embedding.points[slot] = interpolate(grid, points, at)?;
                 } else {
-                    embedding.place(slot, self.volume().and_then(|m| m.place(at)));
+                    embedding.place(slot, volume.and_then(|m| m.place(at)));
                 }
             }
         }

@@ -35,14 +35,6 @@ impl Quads {
         Quality::new(quads.iter().map(|q| quadrilateral_scaled_jacobian(self.mesh.points(), q)).collect())
     }
 
-    /// The mean length of their sides, in the units of the shape.
-    pub(crate) fn mean_side(&self) -> f64 {
-        let at = |v: u32| self.mesh.points()[v as usize];
-        let around = |quad: &[u32]| (0..4).map(|k| (at(quad[k]) - at(quad[(k + 1) % 4])).norm()).sum::<f64>();
-        let count = self.mesh.cells().len();
-        (0..count).map(|i| around(self.mesh.cells().cell(i))).sum::<f64>() / (4 * count.max(1)) as f64
-    }
-
     /// The fields `label`, `patch_id` and `block_id` for mesh files.
     pub fn fields(&self) -> Vec<CellField> {
         let numbers = |ids: &[u32]| ids.iter().map(|&i| i as i32).collect();
@@ -96,6 +88,19 @@ impl Remesher<'_> {
             block_id: grid.squares.iter().map(|s| grid.blocks.len() as u32 + s.face).collect(),
             guessed: embedding.guessed,
         })
+    }
+
+    /// The facet of each quadrilateral.
+    pub(crate) fn facets(&self) -> Vec<u32> {
+        self.grid.squares.iter().map(|s| s.facet).collect()
+    }
+
+    /// The lattice's vertices with those on the surface where `quads` has them.
+    pub(crate) fn points_of(&self, quads: &Quads) -> Vec<Point> {
+        let mut points = vec![Point::origin(); self.grid.vertices.len()];
+        let ring = self.grid.surface_vertices();
+        ring.iter().zip(quads.mesh.points()).for_each(|(&v, p)| points[v as usize] = *p);
+        points
     }
 
     /// The vertices of [`quads`](Self::quads) among `points`, which has the vertices of [`hexes`](Self::hexes) with

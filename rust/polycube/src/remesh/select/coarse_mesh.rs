@@ -57,11 +57,11 @@ impl CoarseMesh {
         tamed(sums.map(|own| own.into_iter().map(|[sum, n]| if n > 0.0 { (sum / n).sqrt() } else { 0.0 }).collect()))
     }
 
-    /// Places the vertices of a finer mesh as in this one.
+    /// A finer mesh with its vertices placed as in this one.
     ///
     /// # Errors
     /// Those of [`interpolate`].
-    pub(crate) fn start(&self, remesher: &Remesher, hexes: &mut Hexes) -> Result<()> {
+    pub(crate) fn started(&self, remesher: &Remesher, hexes: &Hexes) -> Result<Hexes> {
         let grid = &remesher.grid;
         let between = LevelInterpolation::new(remesher.map.structure(), &remesher.map.levels, &self.levels);
         let layers = self.layers.len() - 1;
@@ -80,8 +80,9 @@ impl CoarseMesh {
                 points[padding.number(grid, v, layer) as usize] = outermost + (at - outermost) * THINNER;
             }
         }
-        hexes.mesh.points_mut().copy_from_slice(&points);
-        Ok(())
+        let mut started = hexes.clone();
+        started.mesh.points_mut().copy_from_slice(&points);
+        Ok(started)
     }
 }
 

@@ -7,7 +7,7 @@ use crate::context::Context;
 use crate::error::{Error, ErrorKind, Result};
 use crate::mesh::Mesh;
 use crate::optimise::{Scope, Settings};
-use crate::remesh::fit::{Aim, Improved, improve};
+use crate::remesh::fit::{Aim, Fitted, Improved, improve};
 use crate::remesh::lattice::count_hexes;
 use crate::remesh::map::LatticeMap;
 use crate::remesh::mesher::{Hexes, Remesher};
@@ -72,15 +72,25 @@ pub(crate) fn mesh_coarsely(
         };
         let remesher = Remesher::new(&map, shape, &context)?;
         let mut hexes = remesher.hexes(options.padding, &context)?;
-        finish(coarse, &remesher, &mut hexes, aim, &context)?;
+        finish(coarse, &remesher, &mut hexes, options.padding, aim, &context)?;
         coarse = Some(CoarseMesh::new(remesher, &hexes, options.padding));
     }
     Ok(coarse)
 }
 
+/// Where a mesh starts from before it is improved.
+enum Start<'a> {
+    /// The mesh of a coarser lattice.
+    Coarse(&'a CoarseMesh),
+    /// The map, with all moving at once to untangle it or not.
+    Map(Scope),
+    /// The surface by itself, improved first, with the inside solved for.
+    Surface,
+}
+
 /// Improves `hexes`, starting from the mesh of a coarser lattice; where that leaves hexahedra inverted, as they are;
-/// and then by moving all of the mesh to untangle it, which takes longer, unless it is only a trial. The one with the
-/// fewest inverted hexahedra is kept.
+/// then from their surface, improved first by itself; and then by moving all of the mesh to untangle it, which takes
+/// longer, unless it is only a trial. The one with the fewest inverted hexahedra is kept.
 ///
 /// # Errors
 /// Those of [`optimise`](crate::optimise::optimise()).
@@ -88,18 +98,26 @@ pub(crate) fn finish(
     coarse: Option<CoarseMesh>,
     remesher: &Remesher,
     hexes: &mut Hexes,
+    padding: usize,
     aim: Aim,
     context: &Context,
 ) -> Result<Improved> {
     let coarse = coarse.filter(|r| r.quality.worst > 0.0);
-    let started = coarse.as_ref().map(|coarse| (Some(coarse), Scope::NearFirst));
-    let ways = [started, Some((None, Scope::NearFirst)), (aim != Aim::Trial).then_some((None, Scope::Whole))];
+    let mut ways: Vec<Start> = coarse.iter().map(Start::Coarse).collect();
+    ways.extend([Start::Map(Scope::NearFirst), Start::Surface]);
+    if aim != Aim::Trial {
+        ways.push(Start::Map(Scope::Whole));
+    }
     let mut best: Option<(usize, Hexes, Improved)> = None;
-    for (coarse, scope) in ways.into_iter().flatten() {
-        let mut tried = hexes.clone();
-        coarse.map_or(Ok(()), |coarse| coarse.start(remesher, &mut tried))?;
+    for start in ways {
+        let (mut tried, scope) = match start {
+            Start::Coarse(coarse) => (coarse.started(remesher, hexes)?, Scope::NearFirst),
+            Start::Map(scope) => (hexes.clone(), scope),
+            Start::Surface => (with_surface_first(remesher, padding, context)?, Scope::NearFirst),
+        };
         let settings = Settings { scope, ..Settings::default() };
-        let improved = improve(&remesher.map.polycube, &mut tried, remesher.shape, &settings, aim, context)?;
+        let fitted = Fitted { mesh: &mut tried.mesh, carriers: &tried.carriers, facets: &[] };
+        let improved = improve(&remesher.map.polycube, fitted, remesher.shape, &settings, aim, context)?;
         let inverted = tried.quality().inverted;
         if best.as_ref().is_none_or(|best| inverted < best.0) {
             best = Some((inverted, tried, improved));
@@ -111,4 +129,12 @@ pub(crate) fn finish(
     let (_, found, improved) = best.ok_or_else(|| Error::new(ErrorKind::Internal, "there was nothing to improve"))?;
     *hexes = found;
     Ok(improved)
+}
+
+/// Hexahedra within the surface as it is best by itself.
+fn with_surface_first(remesher: &Remesher, padding: usize, context: &Context) -> Result<Hexes> {
+    let mut quads = remesher.quads(context)?;
+    let fitted = Fitted { mesh: &mut quads.mesh, carriers: &quads.carriers, facets: &remesher.facets() };
+    improve(&remesher.map.polycube, fitted, remesher.shape, &Settings::default(), Aim::Coarse, context)?;
+    remesher.hexes_within(&quads, padding, context)
 }
