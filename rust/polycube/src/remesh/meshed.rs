@@ -3,7 +3,6 @@
 use crate::context::Context;
 use crate::error::Result;
 use crate::measure::Quality;
-use crate::measure::hausdorff::hausdorff;
 use crate::mesh::Mesh;
 use crate::optimise::Settings;
 use crate::remesh::fit::{Aim, Fitted, Improved, improve};
@@ -54,38 +53,15 @@ pub(crate) fn mesh_surface(
     let mut quads = remesher.quads(&context.stage("mesh", 0.1, 0.2))?;
     let optimising = Instant::now();
     stages.mesh += (optimising - start).as_secs_f64();
-    let bound = options.distance_bound(shape);
-    let improved = improve_quads(&remesher, &mut quads, shape, bound, &context.stage("optimise", 0.2, 1.0))?;
+    let fitted = Fitted { mesh: &mut quads.mesh, carriers: &quads.carriers, facets: &remesher.facets() };
+    let aim = Aim::Within(options.distance_bound(shape));
+    let context = context.stage("optimise", 0.2, 1.0);
+    let improved = improve(&remesher.map.polycube, fitted, remesher.shape, &Settings::default(), aim, &context)?;
     stages.optimise += optimising.elapsed().as_secs_f64();
     let Improved { released, far, soundness } = improved;
     let layout = Layout { blocks: None, ..remesher.layout(&remesher.points_of(&quads), 0)? };
     let quality = quads.quality();
     Ok(Meshed { layout, quads, hexes: None, quality, soundness, far, released, spaced: false, folded })
-}
-
-/// Improves quadrilaterals; where that leaves the shape too far away, they stay as they were mapped if they are nearer
-/// then and none is inverted.
-fn improve_quads(
-    remesher: &Remesher,
-    quads: &mut Quads,
-    shape: &Mesh,
-    bound: f64,
-    context: &Context,
-) -> Result<Improved> {
-    let mapped = quads.clone();
-    let fitted = Fitted { mesh: &mut quads.mesh, carriers: &quads.carriers, facets: &remesher.facets() };
-    let (settings, aim) = (Settings::default(), Aim::Within(bound));
-    let improved =
-        improve(&remesher.map.polycube, fitted, remesher.shape, &settings, aim, &context.stage("optimise", 0.0, 0.9))?;
-    let worst = mapped.quality().worst;
-    if improved.far > 0.0 && worst > 0.0 {
-        let far = hausdorff(&mapped.mesh, shape, &context.stage("optimise", 0.9, 1.0))?;
-        if far < improved.far {
-            *quads = mapped;
-            return Ok(Improved { released: 0, far: if far > bound { far } else { 0.0 }, soundness: worst });
-        }
-    }
-    Ok(improved)
 }
 
 /// The hexahedra of a solid with the quadrilaterals and patches of their surface.
