@@ -18,7 +18,7 @@ const IMPROVE_ROUNDS: usize = 2;
 const MOST: f64 = 0.02;
 
 /// Improves the cells that are not inverted, which may leave no room to the others, and untangles again what is near
-/// these; a few times. None becomes inverted that was not. Whether none is left.
+/// these; a few times. No more are inverted than before. Whether none is left.
 pub(super) fn make_room(
     problem: &mut Optimisation,
     points: &mut Vec<Point>,

@@ -80,7 +80,7 @@ pub(crate) fn mesh_volume(
     let optimising = Instant::now();
     stages.mesh += (optimising - start).as_secs_f64();
     let bound = options.distance_bound(shape);
-    let Improved { released, far, .. } = finish(
+    let Improved { released, far, soundness } = finish(
         coarse,
         &remesher,
         &mut hexes,
@@ -95,7 +95,7 @@ pub(crate) fn mesh_volume(
     context.tick(0.3)?;
     let layout = remesher.layout(hexes.mesh.points(), options.padding)?;
     context.tick(0.7)?;
-    let (quality, soundness) = (hexes.quality(), hexes.soundness().worst);
+    let quality = hexes.quality();
     context.tick(1.0)?;
     Ok(Meshed { layout, quads, hexes: Some(hexes), quality, soundness, far, released, spaced: false, folded: 0 })
 }

@@ -130,7 +130,7 @@ impl Fitting<'_> {
     }
 
     /// Passes of the optimiser, until one gains little. Vertices of poor cells are released, unless that loses more of
-    /// the shape, whose `samples` say so: what sticks out may be more worth than good cells.
+    /// the shape, whose `samples` say so: what sticks out may be worth more than good cells.
     pub(super) fn passes(&mut self, samples: &[Point], settings: &Settings, context: &Context) -> Result<()> {
         let settings = Settings { untangle_rounds: settings.untangle_rounds.min(LATE_ROUNDS), ..settings.clone() };
         let mut may_release = true;

@@ -5,7 +5,7 @@ use super::quads::Quads;
 use super::remesher::Remesher;
 use crate::context::Context;
 use crate::error::{Error, ErrorKind, Result};
-use crate::measure::{CellMeasures, Quality, mean_determinant, scaled_jacobian, soundness};
+use crate::measure::{CellMeasures, Quality, scaled_jacobian};
 use crate::mesh::{CellField, Cells, HexFace, Mesh, Point};
 use crate::remesh::lattice::{BoundaryFace, Carrier, Grid, Padding, too_fine};
 use crate::remesh::map::{VolumeMap, fill_inside, interpolate};
@@ -54,12 +54,6 @@ impl Hexes {
     /// What solvers look at beside that. Linear time.
     pub fn measures(&self) -> CellMeasures {
         CellMeasures::new(&self.mesh).unwrap_or_default()
-    }
-
-    /// How [sound](soundness) the hexahedra are as they are now. Linear time.
-    pub(crate) fn soundness(&self) -> Quality {
-        let mean = mean_determinant(self.mesh.points(), self.cells());
-        Quality::new(self.cells().iter().map(|c| soundness(self.mesh.points(), c, mean)).collect())
     }
 
     /// The fields `block_id`, `label`, `scaled_jacobian` and those of [`CellMeasures`] for mesh files.

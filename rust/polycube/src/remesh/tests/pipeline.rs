@@ -175,11 +175,15 @@ fn surfaces_are_sound_and_near_where_more_patches_help() {
             effort: Effort { steps_per_level: 50, ..Effort::default() },
             ..SimplifyOptions::default()
         };
-        let options = RemeshOptions { simplify: quick, surface_only: true, ..options(Strategy::Best, 20_000) };
-        let Remeshed { quads, report, .. } = run(&pair, &options);
-        assert_eq!((report.folded, report.inverted_quads, quads.quality().inverted), (0, 0, 0), "{name}");
-        assert!(quads.quality().worst > 0.34, "{name}: an angle below 20 degrees");
-        assert!(report.within_hausdorff, "{name}: {} %", report.hausdorff_percent);
+        // The small size is too coarse to be near.
+        for (size, is_fine) in [(3000, false), (20_000, true)] {
+            let simplify = quick.clone();
+            let options = RemeshOptions { simplify, surface_only: true, ..options(Strategy::Best, size) };
+            let Remeshed { quads, report, .. } = run(&pair, &options);
+            assert_eq!((report.folded, report.inverted_quads, quads.quality().inverted), (0, 0, 0), "{name} {size}");
+            assert!(!is_fine || quads.quality().worst > 0.34, "{name}: an angle below 20 degrees");
+            assert!(!is_fine || report.within_hausdorff, "{name}: {} %", report.hausdorff_percent);
+        }
     }
 }
 
