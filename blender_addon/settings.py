@@ -331,6 +331,8 @@ class Result(bpy.types.PropertyGroup):
     displacement: FloatProperty(unit='LENGTH')
     notes: StringProperty()
     meshed: StringProperty()
+    hexes: PointerProperty(type=bpy.types.Object)
+    hexes_token: IntProperty(default=0)
 
 
 class PolycubeSettings(Inputs, MakeOptions, SimplifyOptions, VolumeOptions, bpy.types.PropertyGroup):
@@ -343,6 +345,26 @@ class PolycubeSettings(Inputs, MakeOptions, SimplifyOptions, VolumeOptions, bpy.
         items=colours.ITEMS,
         default='block_id',
         update=colours.repaint,
+    )
+    cut: FloatProperty(
+        name="Cut Away",
+        description="How much of the hexahedra is taken away to show the inside, as a part of their length along the axis",
+        min=0.0,
+        max=1.0,
+        default=0.5,
+        subtype='FACTOR',
+        update=live.cut,
+    )
+    cut_axis: EnumProperty(
+        name="Cut Along",
+        description="The axis of the object along which hexahedra are taken away",
+        items=(
+            ('X', "X", "From the right"),
+            ('Y', "Y", "From the front"),
+            ('Z', "Z", "From above"),
+        ),
+        default='Y',
+        update=live.cut,
     )
     result: PointerProperty(type=Result)
 

@@ -52,7 +52,19 @@ def test_a_new_shape_key(settings, command, tmp_path):
     assert np.array_equal(key_points(obj, "Simplified"), expected.astype(np.float32))
     # The shape is the basis, although the polycube shows now.
     assert ops.simplify() == {'FINISHED'}
-    assert np.array_equal(key_points(obj, "Simplified.001"), key_points(obj, "Simplified"))
+    assert keys.keys() == ["Basis", "Polycube", "Simplified"]
+    assert np.array_equal(key_points(obj, "Simplified"), expected.astype(np.float32))
+
+
+def test_a_polycube_of_the_name_of_a_result_is_not_overwritten(settings):
+    ops.add_example(example='stepped-l')
+    obj = bpy.context.object
+    obj.data.shape_keys.key_blocks["Polycube"].name = settings.key = "Simplified"
+    cube = key_points(obj, "Simplified")
+    for _ in range(2):
+        assert ops.simplify(strategy='paper') == {'FINISHED'}
+        assert obj.active_shape_key.name == "Simplified.001"
+    assert np.array_equal(key_points(obj, "Simplified"), cube)
 
 
 def test_face_attributes_and_colours(pair):
