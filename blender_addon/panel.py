@@ -152,6 +152,7 @@ def draw_search(layout, options):
             layout.prop(options, "simplicity", slider=True)
         layout.prop(options, "max_displacement")
         layout.prop(options, "max_distortion")
+    layout.row(heading="Symmetry").prop(options, "symmetry", text="", toggle=True)
     layout.prop(options, "locks")
     if options.locks == 'GROUP':
         holder = live.holder(bpy.context.scene.polycube)

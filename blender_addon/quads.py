@@ -48,7 +48,7 @@ def _structure(options, context, read):
         # It lies on its lattice already, where rounding changes nothing.
         return shown[1].polycube, {"strategy": "naive", "labels": shown[1].labels, "scale": _scale(options)}
     locked = source.locked_cells(read, options, bpy.data.objects[read.holder])
-    arguments = simplify.search_options(options, locked)
+    arguments = simplify.search_options(options, read, locked)
     if arguments["simplicity"] == 1.0:
         # The fewest blocks, or more where those make bad hexahedra.
         arguments["simplicity"] = None

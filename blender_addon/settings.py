@@ -10,6 +10,7 @@ import math
 
 import bpy
 from bpy.props import (
+    BoolVectorProperty,
     EnumProperty,
     FloatProperty,
     IntProperty,
@@ -114,6 +115,13 @@ class SearchOptions(Options):
     lock_group: StringProperty(
         name="Group",
         description="Vertex group of the polycube's object whose facets may not move",
+        options=FORGET,
+    )
+    symmetry: BoolVectorProperty(
+        name="Symmetry",
+        description="Planes through the origin of the polycube's object, across these axes, that the polycube is "
+        "symmetric about and stays so, up to a step of the lattice",
+        subtype='XYZ',
         options=FORGET,
     )
     steps: IntProperty(

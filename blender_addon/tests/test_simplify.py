@@ -67,6 +67,26 @@ def test_a_polycube_of_the_name_of_a_result_is_not_overwritten(settings):
     assert np.array_equal(key_points(obj, "Simplified"), cube)
 
 
+# A plate with one tower on it and two below, the same on both sides of x = 0 and on no two sides of y = 0.
+EVEN = (((-5, 0, 0), (5, 8, 2)), ((-2, 1, 2), (2, 4, 5)), ((-4, 2, -3), (-1, 5, 0)), ((1, 2, -3), (4, 5, 0)))
+
+
+def test_symmetry_is_kept_as_by_the_command(settings, command, tmp_path):
+    points, faces = solid(EVEN)
+    settings.shape, settings.polycube = add_pair(points, faces)
+    guides = tmp_path / "guides.json"
+    guides.write_text('{"symmetry": [{"axis": 0, "at": 0.0}]}')
+    assert ops.simplify(symmetry=(True, False, False)) == {'FINISHED'}
+    found = points_of(bpy.context.object.data)
+    expected, _ = simplified_by(command, tmp_path, points, faces, bent(points), "--guides", guides)
+    assert np.array_equal(found, expected.astype(np.float32))
+    structure = polycube.structure(mesh_of(found, faces))
+    levels = np.sort(structure.levels[structure.level_axis == 0])
+    assert np.ptp(levels + levels[::-1]) < 1e-6
+    with pytest.raises(RuntimeError, match="symmetry"):
+        ops.simplify(symmetry=(False, True, False))
+
+
 def test_face_attributes_and_colours(pair):
     ops.simplify()
     mesh = bpy.context.object.data
