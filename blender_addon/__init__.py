@@ -8,10 +8,10 @@ import os
 
 import bpy
 
-from . import check, examples, export, jobs, layout, live, make, panel, quads, settings, simplify
+from . import check, examples, export, hexes, jobs, layout, live, make, panel, quads, settings, simplify
 
 # Settings come first: the others refer to them.
-MODULES = (settings, check, make, simplify, quads, layout, export, examples, panel)
+MODULES = (settings, check, make, simplify, quads, hexes, layout, export, examples, panel)
 
 
 def register():

@@ -45,7 +45,7 @@ def _object(context, like, obj, name, lines, thickness, colour):
         spline.points.add(len(points) - 1)
         spline.points.foreach_set("co", np.column_stack([points, np.ones(len(points))]).astype(np.float32).ravel())
     curve.materials.append(_material(name, colour))
-    return [results.new_object(context, like, f"{like.name} {name}", curve)]
+    return [results.new_object(context, like, f"{obj[results.KIND]} {name}", curve)]
 
 
 def _material(name, colour):

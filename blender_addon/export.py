@@ -8,15 +8,18 @@ import numpy as np
 import polycube
 from bpy.props import EnumProperty, StringProperty
 
-from . import crossings, faults, jobs, quads, settings, source
+from . import crossings, cut, faults, hexes, jobs, quads, settings, source
 
 FORMATS = (
     ('.vtu', "VTK (.vtu)", "For ParaView and PyVista, with scaled_jacobian, edge_ratio, block_id and more"),
     ('.vtk', "VTK, old (.vtk)", "For older programs of the same kind, with the same numbers"),
     ('.mesh', "MEDIT (.mesh)", "For Gmsh, Graphite and other mesh generators"),
+    ('.msh', "Gmsh (.msh)", "For Gmsh and what reads it, with names for blocks and boundary"),
+    ('.inp', "Abaqus (.inp)", "For Abaqus and CalculiX, with sets of blocks and boundary"),
+    ('.su2', "SU2 (.su2)", "For SU2, with markers for the boundary"),
+    ('.foam', "OpenFOAM (.foam)", "The folder of a case, with zones for blocks and patches for the boundary"),
 )
-# What is written of every hexahedron.
-FIELDS = ("block_id", "label", "scaled_jacobian", "edge_ratio", "determinant", "non_orthogonality", "skewness")
+SOLVERS = ('.msh', '.inp', '.su2', '.foam')
 
 
 class POLYCUBE_OT_write_hexes(jobs.JobOperator, settings.SearchOptions, settings.ToleranceOptions,
@@ -33,29 +36,36 @@ class POLYCUBE_OT_write_hexes(jobs.JobOperator, settings.SearchOptions, settings
     def begin(self, context, read):
         if not self.filepath:
             raise faults.Refused("there is no file name", "give one")
+        shape = bpy.data.objects[read.shape_name or read.holder]
+        if self.filepath.endswith(SOLVERS) and _mirrored(shape):
+            raise faults.Refused(f"{shape.name} is mirrored by its scale", "Object > Apply > Scale, and Mesh > Normals > "
+                                 "Recalculate Outside")
         return quads.remesh(self, context, read, surface_only=False, padding=self.padding)
 
     def finish(self, context, read, meshes):
         shape = bpy.data.objects[read.shape_name or read.holder]
         placed = in_scene(shape, meshes.hexes.points / read.shape_size)
-        fields = {name: getattr(meshes.hexes, name) for name in FIELDS}
-        cells = meshes.hexes.cells
-        if shape.matrix_world.determinant() < 0.0:
-            # A mirrored object turns hexahedra inside out; what was below is above then.
-            cells = cells[:, [4, 5, 6, 7, 0, 1, 2, 3]]
         # The file appears whole or not at all.
-        polycube.Mesh(placed, cells, kind="hexahedra").write(bpy.path.abspath(self.filepath), fields=fields)
-        report = meshes.report
-        summary = (
-            f"{report['hexes']} hexahedra in {report['hex_blocks']} blocks\n"
-            f"scaled Jacobian {report['min_sj']:.2f} at worst, {report['avg_sj']:.2f} on average\n"
-            f"edges differ by {report['edge_ratio']['max']:.1f} at most"
-        )
+        if _mirrored(shape):
+            _write_mirrored(meshes.hexes, placed, bpy.path.abspath(self.filepath))
+        else:
+            meshes.hexes.write(bpy.path.abspath(self.filepath), points=placed)
+        summary = hexes.summary(meshes.report)
         context.scene.polycube.result.meshed = summary
         self.report({'INFO'}, f"{summary.replace(chr(10), ', ')}: {os.path.basename(self.filepath)}")
         for note in meshes.notes:
             self.report({'WARNING'}, note)
         crossings.warn(self, read)
+
+
+def _mirrored(obj):
+    return obj.matrix_world.determinant() < 0.0
+
+
+def _write_mirrored(found, placed, path):
+    # A mirrored object turns hexahedra inside out; what was below is above then.
+    mesh = polycube.Mesh(placed, found.cells[:, [4, 5, 6, 7, 0, 1, 2, 3]], kind="hexahedra")
+    mesh.write(path, fields={name: getattr(found, name) for name in cut.FIELDS})
 
 
 def in_scene(obj, points):
@@ -74,7 +84,7 @@ class POLYCUBE_OT_export_hexes(jobs.NeedsMesh, bpy.types.Operator):
     bl_label = "Export Hex Mesh"
 
     filepath: StringProperty(name="File", description="Where the file goes", subtype='FILE_PATH', options={'SKIP_SAVE'})
-    filter_glob: StringProperty(default="*.vtu;*.vtk;*.mesh", options={'HIDDEN'})
+    filter_glob: StringProperty(default=";".join(f"*{ending}" for ending, *_ in FORMATS), options={'HIDDEN'})
     format: EnumProperty(name="Format", description="The kind of file", items=FORMATS, default='.vtu')
     check_existing: bpy.props.BoolProperty(default=True, options={'HIDDEN', 'SKIP_SAVE'})
 

@@ -32,7 +32,7 @@ class POLYCUBE_OT_show_layout(jobs.JobOperator, settings.SearchOptions, settings
             obj, shape = quads.quad_object(context, read, meshes, "Layout")
             objects = [obj, *curves.borders(context, shape, obj, meshes, read.shape_size)]
         objects += curves.singular(context, shape, objects[0], meshes, read.shape_size)
-        quads.finish(self, context, read, objects, meshes)
+        quads.finish(self, context, read, objects, meshes, quads.summary(meshes))
 
     def _cage(self, context, read, meshes):
         shape = bpy.data.objects[read.shape_name or read.holder]
@@ -40,7 +40,7 @@ class POLYCUBE_OT_show_layout(jobs.JobOperator, settings.SearchOptions, settings
         mesh = bpy.data.meshes.new("Layout")
         results.set_faces(mesh, patches.points / read.shape_size, patches.cells)
         colours.write(mesh, block_id=np.arange(len(patches.cells)), label=meshes.layout.patch_label)
-        return shape, [results.new_object(context, shape, f"{shape.name} Layout", mesh)]
+        return shape, [results.new_object(context, shape, "Layout", mesh)]
 
     def draw(self, _context):
         self.layout.use_property_split = True

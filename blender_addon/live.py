@@ -1,12 +1,13 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """What is kept in memory: the last simplified polycube, so that the Simplicity slider can move along what was found,
-and the last polycube that was made, so that it is made once."""
+the last hexahedra, so that they can be cut open elsewhere, and the last polycube that was made, so that it is made
+once."""
 
 import random
 
 import polycube
 
-from . import results
+from . import colours, results
 
 
 class _Last:
@@ -17,6 +18,13 @@ class _Last:
     found = None
     shown = None
     still = False
+
+
+class _Hexes:
+    """The last hexahedra, which the slider cuts open."""
+
+    token = 0
+    hexahedra = None
 
 
 class _Made:
@@ -38,16 +46,40 @@ def made_of(source, making):
 
 def remember(source, found):
     """Keeps a result; gives the token by which the scene tells that it shows this one."""
-    # A scene keeps its token in its file, so those of other sessions must not be met again by counting.
-    _Last.token = random.randrange(1, 2**31)
+    _Last.token = _token()
     _Last.source, _Last.found, _Last.shown = source, found, found
     return _Last.token
+
+
+def _token():
+    # A scene keeps its token in its file, so those of other sessions must not be met again by counting.
+    return random.randrange(1, 2**31)
+
+
+def keep_hexes(hexahedra):
+    """Keeps hexahedra to cut open; gives the token by which the scene tells that it shows these."""
+    _Hexes.token, _Hexes.hexahedra = _token(), hexahedra
+    return _Hexes.token
+
+
+def can_cut(settings):
+    """Whether the hexahedra that the scene shows are those that are kept."""
+    same = _Hexes.hexahedra is not None and settings.result.hexes_token == _Hexes.token
+    return same and settings.result.hexes is not None and not settings.result.hexes.data.is_editmode
+
+
+def cut(settings, _context):
+    """Called when the user moves the cut: shows more or less of the hexahedra."""
+    if can_cut(settings):
+        mesh = settings.result.hexes.data
+        _Hexes.hexahedra.fill(mesh, settings.cut_axis, settings.cut)
+        colours.paint(mesh, settings.colour)
 
 
 def forget():
     """Frees the memory."""
     _Last.source = _Last.found = _Last.shown = None
-    _Made.key = _Made.made = None
+    _Made.key = _Made.made = _Hexes.hexahedra = None
 
 
 def current(settings):

@@ -79,8 +79,6 @@ class VIEW3D_PT_polycube_simplify(_SidePanel, bpy.types.Panel):
         layout, choice = self.layout, context.scene.polycube
         layout.use_property_split = True
         layout.use_property_decorate = False
-        draw_search(layout, choice)
-        draw_lattice(layout, choice)
         layout.operator("polycube.simplify", icon='MOD_REMESH')
         if choice.strategy == 'best':
             layout.prop(choice, "simplicity", slider=True)
@@ -98,14 +96,16 @@ class VIEW3D_PT_polycube_mesh(_SidePanel, bpy.types.Panel):
         draw_size(layout, choice)
         column = layout.column(align=True)
         column.operator("polycube.quad_remesh", icon='MESH_GRID')
+        column.operator("polycube.hex_mesh", icon='SNAP_VOLUME')
         column.operator("polycube.show_layout", icon='MOD_WIREFRAME')
         column.operator("polycube.export_hexes", icon='EXPORT')
         layout.prop(choice, "colour")
+        _draw_cut(layout, choice)
         _draw_text(layout, choice.result.meshed, 'NONE')
 
 
-class VIEW3D_PT_polycube_tolerance(_SidePanel, bpy.types.Panel):
-    bl_label = "Tolerance and Effort"
+class VIEW3D_PT_polycube_search(_SidePanel, bpy.types.Panel):
+    bl_label = "Search, Lattice, Tolerance"
     bl_parent_id = "VIEW3D_PT_polycube"
     bl_options = {'DEFAULT_CLOSED'}
 
@@ -113,6 +113,8 @@ class VIEW3D_PT_polycube_tolerance(_SidePanel, bpy.types.Panel):
         layout, choice = self.layout, context.scene.polycube
         layout.use_property_split = True
         layout.use_property_decorate = False
+        draw_search(layout, choice)
+        draw_lattice(layout, choice)
         for name in ("angle_tolerance", "level_tolerance", "steps"):
             layout.prop(choice, name)
 
@@ -134,7 +136,7 @@ def explain(context):
     if shape is None:
         return "Select a closed mesh, or add an example:", "quads and hexahedra of few blocks follow it."
     if choice.source == 'KEY':
-        return f"Meshes {shape.name},", f"with its shape key {choice.key} as the polycube."
+        return f"Meshes {shape.name},", f"the polycube is its shape key {choice.key}."
     if choice.polycube:
         return f"Meshes {shape.name},", f"with {choice.polycube.name} as its polycube."
     return f"Meshes {shape.name}, a closed surface.", "A polycube of it is made on the way."
@@ -150,6 +152,7 @@ def draw_search(layout, options):
             layout.prop(options, "simplicity", slider=True)
         layout.prop(options, "max_displacement")
         layout.prop(options, "max_distortion")
+    layout.row(heading="Symmetry").prop(options, "symmetry", text="", toggle=True)
     layout.prop(options, "locks")
     if options.locks == 'GROUP':
         holder = live.holder(bpy.context.scene.polycube)
@@ -178,6 +181,17 @@ def draw_size(layout, options):
         layout.prop(options, "hexes")
     if hasattr(options, "padding"):
         layout.prop(options, "padding")
+
+
+def _draw_cut(layout, choice):
+    """Where the hexahedra shown are cut open."""
+    if choice.result.hexes is None:
+        return
+    if live.can_cut(choice):
+        layout.row().prop(choice, "cut_axis", expand=True)
+        layout.prop(choice, "cut", slider=True)
+    else:
+        layout.label(text="Hex Mesh again to move the cut", icon='INFO')
 
 
 def _draw_counts(layout, choice):
@@ -214,7 +228,7 @@ CLASSES = (
     POLYCUBE_PT_presets,
     POLYCUBE_OT_preset_add,
     VIEW3D_PT_polycube,
-    VIEW3D_PT_polycube_simplify,
     VIEW3D_PT_polycube_mesh,
-    VIEW3D_PT_polycube_tolerance,
+    VIEW3D_PT_polycube_simplify,
+    VIEW3D_PT_polycube_search,
 )

@@ -23,7 +23,7 @@ class POLYCUBE_OT_quad_remesh(jobs.JobOperator, settings.SearchOptions, settings
         with source.visible(context, shape, 0 if read.key else None):
             transfer.carry_over(context, shape, obj)
         lines = curves.singular(context, shape, obj, meshes, read.shape_size)
-        finish(self, context, read, [obj, *lines], meshes)
+        finish(self, context, read, [obj, *lines], meshes, summary(meshes))
 
     def draw(self, _context):
         panel.draw_search(self.layout, self)
@@ -48,7 +48,7 @@ def _structure(options, context, read):
         # It lies on its lattice already, where rounding changes nothing.
         return shown[1].polycube, {"strategy": "naive", "labels": shown[1].labels, "scale": _scale(options)}
     locked = source.locked_cells(read, options, bpy.data.objects[read.holder])
-    arguments = simplify.search_options(options, locked)
+    arguments = simplify.search_options(options, read, locked)
     if arguments["simplicity"] == 1.0:
         # The fewest blocks, or more where those make bad hexahedra.
         arguments["simplicity"] = None
@@ -77,23 +77,24 @@ def quad_object(context, read, meshes, what):
         label=quads.label,
         scaled_jacobian=quads.scaled_jacobian,
     )
-    return results.new_object(context, shape, f"{shape.name} {what}", mesh), shape
+    return results.new_object(context, shape, what, mesh), shape
 
 
-def finish(operator, context, read, objects, meshes):
+def finish(operator, context, read, objects, meshes, summary):
     """Shows new objects in place of shape and polycube, and says how they turned out."""
-    report = meshes.report
-    for obj in objects[1:]:
-        obj.parent = objects[0]
-        obj.matrix_parent_inverse = objects[0].matrix_world.inverted()
-    inputs = [bpy.data.objects[name] for name in (read.holder, read.shape_name) if name]
-    results.show(context, objects, inputs)
-    distance = f"at most {report['hausdorff_percent']:.2f} % of the diagonal off the shape"
-    summary = f"{report['quads']} quadrilaterals in {len(meshes.layout.patches.cells)} patches, {distance}"
+    results.join(objects[0], objects[1:])
+    results.show(context, read, objects, results.inputs(read))
     context.scene.polycube.result.meshed = summary
-    operator.report({'INFO'}, summary)
+    operator.report({'INFO'}, summary.replace("\n", ", "))
     for note in meshes.notes:
         operator.report({'WARNING'}, note)
+
+
+def summary(meshes):
+    """How quadrilaterals turned out."""
+    report = meshes.report
+    distance = f"at most {report['hausdorff_percent']:.2f} % of the diagonal off the shape"
+    return f"{report['quads']} quadrilaterals in {len(meshes.layout.patches.cells)} patches, {distance}"
 
 
 CLASSES = (POLYCUBE_OT_quad_remesh,)

@@ -9,8 +9,12 @@ from . import colours, faults
 from .source import ORIGIN, visible
 
 KEY_NAME = "Simplified"
-# The custom property that tells results from other objects.
-MARK = "polycube_result"
+# The custom property that tells results from other objects, and of what kind they are.
+KIND = "polycube_result"
+# The custom property with the name that a result was given: under another one it is kept.
+NAME = "polycube_name"
+# Results whose faces are what one wants to see.
+WIRED = ("Quads", "Hexes")
 
 
 def check_output(source, output):
@@ -38,22 +42,29 @@ def _as_key(source, output):
 
 
 def place(context, source, simplified, output):
-    """Makes a new shape key or object of a result and shows it. What was there is kept, hidden where it is covered."""
+    """Makes a shape key or object of a result, in place of an earlier one, and shows it. The input is kept, hidden
+    where it is covered."""
     if simplified.polycube is None:
         raise faults.Refused("rounding broke the polycube: " + "; ".join(simplified.notes), "use the strategy Best or Paper")
     as_key = _as_key(source, output)
     holder = bpy.data.objects[source.holder]
-    obj, key = (holder, _new_key(holder)) if as_key else (_new_object(context, holder, source), "")
+    obj, key = (holder, _key_of(holder, source.key)) if as_key else (_new_object(context, holder, source), "")
     result = context.scene.polycube.result
     result.object, result.key, result.meshed = obj, key, ""
     update(context, source, simplified)
-    show(context, [obj], [holder])
+    show(context, source, [obj], [holder])
 
 
-def show(context, objects, covered):
-    """Shows new results and selects the first. Hides earlier ones, and what the new ones cover."""
+def inputs(source):
+    """The objects that a result is made of."""
+    return [bpy.data.objects[name] for name in (source.holder, source.shape_name) if name]
+
+
+def show(context, source, objects, covered):
+    """Shows new results and selects the first. Hides other results of the same objects, and what the new ones cover."""
+    origins = inputs(source)
     for other in context.view_layer.objects:
-        if other.get(MARK) or other in covered:
+        if other in covered or (other.get(KIND) and other.get(ORIGIN) in origins):
             other.hide_set(other not in objects)
     faults.enter(context, objects[0])
     colours.show(context, objects[0])
@@ -98,12 +109,16 @@ def _count(result, simplified):
     result.notes = "\n".join(simplified.notes)
 
 
-def _new_key(holder):
+def _key_of(holder, taken):
+    """The shape key for a result: that of an earlier one, unless it is the one that is simplified, or a new one."""
     if holder.data.shape_keys is None:
         holder.shape_key_add(name="Basis", from_mix=False)
     for key in holder.data.shape_keys.key_blocks[1:]:
         key.value = 0.0
-    key = holder.shape_key_add(name=KEY_NAME, from_mix=False)
+    named = (key for key in holder.data.shape_keys.key_blocks if key.name.split(".")[0] == KEY_NAME)
+    key = next((key for key in named if key.name != taken), None)
+    if key is None:
+        key = holder.shape_key_add(name=KEY_NAME, from_mix=False)
     key.value = 1.0
     holder.active_shape_key_index = holder.data.shape_keys.key_blocks.find(key.name)
     return key.name
@@ -113,12 +128,12 @@ def _new_object(context, holder, source):
     if source.made:
         mesh = bpy.data.meshes.new("Simplified")
         set_faces(mesh, source.shape.points / source.size, source.shape.cells)
-        return new_object(context, holder, f"{holder.name} Simplified", mesh)
+        return new_object(context, holder, "Simplified", mesh)
     with visible(context, holder):
         depsgraph = context.evaluated_depsgraph_get()
         evaluated = holder.evaluated_get(depsgraph)
         mesh = bpy.data.meshes.new_from_object(evaluated, preserve_all_data_layers=True, depsgraph=depsgraph)
-    return new_object(context, holder, f"{holder.name} Simplified", mesh)
+    return new_object(context, holder, "Simplified", mesh)
 
 
 def set_faces(mesh, points, cells):
@@ -132,11 +147,44 @@ def set_faces(mesh, points, cells):
     mesh.update(calc_edges=True)
 
 
-def new_object(context, like, name, data):
-    """A new object for a result: it lies where `like` lies, in the same collections."""
-    obj = beside(context, like, name, data)
-    obj[MARK], obj[ORIGIN] = True, like
+def new_object(context, like, kind, data):
+    """The object for a result of a kind: it lies where `like` lies, in the same collections. One of the same kind that
+    was made of the same object before gets the new data, unless the user has renamed or copied it."""
+    obj = _earlier(context, like, kind)
+    if obj is None:
+        obj = beside(context, like, f"{like.name} {kind}", data)
+        obj.show_wire = obj.show_all_edges = kind in WIRED
+    else:
+        _exchange(obj, data)
+        obj.matrix_world = like.matrix_world
+    obj[KIND], obj[ORIGIN], obj[NAME] = kind, like, obj.name
     return obj
+
+
+def _earlier(context, like, kind):
+    for obj in context.view_layer.objects:
+        if obj.get(KIND) == kind and obj.get(ORIGIN) == like and obj.get(NAME) == obj.name:
+            return obj
+    return None
+
+
+def _exchange(obj, data):
+    old, collection = obj.data, bpy.data.meshes if obj.type == 'MESH' else bpy.data.curves
+    name, obj.data = old.name, data
+    if old.users == 0:
+        collection.remove(old)
+        data.name = name
+
+
+def join(obj, parts):
+    """Makes the parts of a result follow it, and removes those that an earlier one had."""
+    for part in list(obj.children):
+        if part.get(KIND) and part.get(NAME) == part.name and part not in parts:
+            bpy.data.objects.remove(part)
+    for part in parts:
+        place = part.matrix_world.copy()
+        part.parent, part.matrix_parent_inverse = obj, obj.matrix_world.inverted()
+        part.matrix_world = place
 
 
 def beside(context, like, name, data):

@@ -10,6 +10,7 @@ import math
 
 import bpy
 from bpy.props import (
+    BoolVectorProperty,
     EnumProperty,
     FloatProperty,
     IntProperty,
@@ -114,6 +115,13 @@ class SearchOptions(Options):
     lock_group: StringProperty(
         name="Group",
         description="Vertex group of the polycube's object whose facets may not move",
+        options=FORGET,
+    )
+    symmetry: BoolVectorProperty(
+        name="Symmetry",
+        description="Planes through the origin of the polycube's object, across these axes, that the polycube is "
+        "symmetric about and stays so, up to a step of the lattice",
+        subtype='XYZ',
         options=FORGET,
     )
     steps: IntProperty(
@@ -331,6 +339,8 @@ class Result(bpy.types.PropertyGroup):
     displacement: FloatProperty(unit='LENGTH')
     notes: StringProperty()
     meshed: StringProperty()
+    hexes: PointerProperty(type=bpy.types.Object)
+    hexes_token: IntProperty(default=0)
 
 
 class PolycubeSettings(Inputs, MakeOptions, SimplifyOptions, VolumeOptions, bpy.types.PropertyGroup):
@@ -343,6 +353,26 @@ class PolycubeSettings(Inputs, MakeOptions, SimplifyOptions, VolumeOptions, bpy.
         items=colours.ITEMS,
         default='block_id',
         update=colours.repaint,
+    )
+    cut: FloatProperty(
+        name="Cut Away",
+        description="How much of the hexahedra is taken away to show the inside, as a part of their length along the axis",
+        min=0.0,
+        max=1.0,
+        default=0.5,
+        subtype='FACTOR',
+        update=live.cut,
+    )
+    cut_axis: EnumProperty(
+        name="Cut Along",
+        description="The axis of the object along which hexahedra are taken away",
+        items=(
+            ('X', "X", "From the right"),
+            ('Y', "Y", "From the front"),
+            ('Z', "Z", "From above"),
+        ),
+        default='Y',
+        update=live.cut,
     )
     result: PointerProperty(type=Result)
 

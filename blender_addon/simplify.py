@@ -21,7 +21,7 @@ class POLYCUBE_OT_simplify(jobs.JobOperator, settings.SimplifyOptions, settings.
     def begin(self, context, read):
         locked = source.locked_cells(read, self, bpy.data.objects[read.holder])
         given = {"labels": read.labels, "edge_length": self.lattice_step if self.lattice == 'STEP' else None}
-        return polycube.Job.simplify(read.polycube, read.shape, **given, **search_options(self, locked))
+        return polycube.Job.simplify(read.polycube, read.shape, **given, **search_options(self, read, locked))
 
     def finish(self, context, read, found):
         results.place(context, read, found, self.output)
@@ -38,7 +38,7 @@ class POLYCUBE_OT_simplify(jobs.JobOperator, settings.SimplifyOptions, settings.
         panel.draw_lattice(self.layout, self)
 
 
-def search_options(options, locked):
+def search_options(options, read, locked):
     """The arguments that `Job.simplify` and `Job.remesh` share, from an operator's or the panel's options."""
     given = {
         "strategy": options.strategy,
@@ -47,10 +47,17 @@ def search_options(options, locked):
         "max_displacement": options.max_displacement or None,
         "max_distortion": options.max_distortion or None,
         "locked_faces": locked,
+        "guides": _planes(options, read),
         "steps": options.steps,
         **options.tolerances(),
     }
     return {name: value for name, value in given.items() if value is not None}
+
+
+def _planes(options, read):
+    """The planes of symmetry as the module takes them, where the polycube is as large as the scene."""
+    planes = [{"axis": axis, "at": -float(read.offset[axis])} for axis, kept in enumerate(options.symmetry) if kept]
+    return {"symmetry": planes} if planes else None
 
 
 CLASSES = (POLYCUBE_OT_simplify,)

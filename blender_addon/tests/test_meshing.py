@@ -220,6 +220,39 @@ def test_hexahedra_of_a_mirrored_object_are_not_inverted(pair, tmp_path):
     assert (np.einsum('ij,ij->i', np.cross(along - first, across - first), up - first) > 0.0).all()
 
 
+def test_hexahedra_for_solvers(pair, files, command, tmp_path):
+    """Where the shape lies at the origin, the very file of the command; elsewhere its vertices in the scene."""
+    given = dict(blocks_from='SEARCH', size='COUNT', hexes=2000)
+    formats = ("msh", "inp", "su2", "foam")
+    out = command("remesh", *files, "--hexes", "2000", *(word for name in formats for word in ("--format", name)))
+    for ending in formats[:3]:
+        path = tmp_path / f"hexes.{ending}"
+        assert ops.export_hexes(filepath=str(path)) == {'FINISHED'} and path.stat().st_size > 10_000
+        assert ops.write_hexes(filepath=str(path), **given) == {'FINISHED'}
+        assert path.read_bytes() == (out / path.name).read_bytes()
+    ops.write_hexes(filepath=str(tmp_path / "case.foam"), **given)
+    for name in ("points", "faces", "boundary", "cellZones"):
+        within = f"constant/polyMesh/{name}"
+        assert (tmp_path / "case.foam" / within).read_bytes() == (out / "foam" / within).read_bytes()
+    before = polycube.read(tmp_path / "hexes.msh")
+    pair[0].location, pair[0].rotation_euler = (5.0, 0.0, 1.0), (0.0, 0.3, 0.5)
+    bpy.context.view_layer.update()
+    ops.write_hexes(filepath=str(tmp_path / "hexes.msh"), **given)
+    after = polycube.read(tmp_path / "hexes.msh")
+    matrix = np.array(pair[0].matrix_world)
+    assert np.allclose(after.points, before.points @ matrix[:3, :3].T + matrix[:3, 3], atol=1e-5)
+    assert np.array_equal(after.cells, before.cells)
+
+
+def test_a_mirrored_object_is_not_for_solvers(pair, tmp_path):
+    for obj in pair:
+        obj.scale = (-1.0, 1.0, 1.0)
+    bpy.context.view_layer.update()
+    with pytest.raises(RuntimeError, match="mirrored.*Apply > Scale"):
+        ops.write_hexes(filepath=str(tmp_path / "hexes.msh"))
+    assert not list(tmp_path.glob("hexes*"))
+
+
 def test_a_file_that_cannot_be_written(pair):
     with pytest.raises(RuntimeError, match="no/such/folder"):
         ops.export_hexes(filepath="/no/such/folder/hexes.vtu")

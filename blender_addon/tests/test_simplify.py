@@ -52,7 +52,39 @@ def test_a_new_shape_key(settings, command, tmp_path):
     assert np.array_equal(key_points(obj, "Simplified"), expected.astype(np.float32))
     # The shape is the basis, although the polycube shows now.
     assert ops.simplify() == {'FINISHED'}
-    assert np.array_equal(key_points(obj, "Simplified.001"), key_points(obj, "Simplified"))
+    assert keys.keys() == ["Basis", "Polycube", "Simplified"]
+    assert np.array_equal(key_points(obj, "Simplified"), expected.astype(np.float32))
+
+
+def test_a_polycube_of_the_name_of_a_result_is_not_overwritten(settings):
+    ops.add_example(example='stepped-l')
+    obj = bpy.context.object
+    obj.data.shape_keys.key_blocks["Polycube"].name = settings.key = "Simplified"
+    cube = key_points(obj, "Simplified")
+    for _ in range(2):
+        assert ops.simplify(strategy='paper') == {'FINISHED'}
+        assert obj.active_shape_key.name == "Simplified.001"
+    assert np.array_equal(key_points(obj, "Simplified"), cube)
+
+
+# A plate with one tower on it and two below, the same on both sides of x = 0 and on no two sides of y = 0.
+EVEN = (((-5, 0, 0), (5, 8, 2)), ((-2, 1, 2), (2, 4, 5)), ((-4, 2, -3), (-1, 5, 0)), ((1, 2, -3), (4, 5, 0)))
+
+
+def test_symmetry_is_kept_as_by_the_command(settings, command, tmp_path):
+    points, faces = solid(EVEN)
+    settings.shape, settings.polycube = add_pair(points, faces)
+    guides = tmp_path / "guides.json"
+    guides.write_text('{"symmetry": [{"axis": 0, "at": 0.0}]}')
+    assert ops.simplify(symmetry=(True, False, False)) == {'FINISHED'}
+    found = points_of(bpy.context.object.data)
+    expected, _ = simplified_by(command, tmp_path, points, faces, bent(points), "--guides", guides)
+    assert np.array_equal(found, expected.astype(np.float32))
+    structure = polycube.structure(mesh_of(found, faces))
+    levels = np.sort(structure.levels[structure.level_axis == 0])
+    assert np.ptp(levels + levels[::-1]) < 1e-6
+    with pytest.raises(RuntimeError, match="symmetry"):
+        ops.simplify(symmetry=(False, True, False))
 
 
 def test_face_attributes_and_colours(pair):

@@ -153,6 +153,7 @@ def work():
     yield LATER
     yield from open_panel()
     press("add_example")
+    bpy.context.scene.polycube.colour = 'label'
     bpy.ops.ed.undo_push(message="example")
     obj = bpy.context.object
     obj.data.shape_keys.key_blocks["Polycube"].value = 1.0
@@ -194,6 +195,7 @@ def work():
     yield SOON
     assert settings.result.padded[1] == fewest
 
+    settings.colour = 'block_id'
     assert press("show_layout") == {'RUNNING_MODAL'}
     yield from finished()
     yield from look()
@@ -204,6 +206,16 @@ def work():
     settings.colour = 'scaled_jacobian'
     yield LATER
     picture("quads")
+    settings.colour = 'block_id'
+    assert press("hex_mesh") == {'RUNNING_MODAL'}
+    yield from finished()
+    bpy.ops.object.select_all(action='DESELECT')
+    yield LATER
+    picture("hexes")
+    shown = len(bpy.context.object.data.polygons)
+    settings.cut = 0.3
+    yield LATER
+    assert len(bpy.context.object.data.polygons) != shown
     # As the file browser does it, once a name is chosen.
     path = os.path.join(FOLDER, "hexes.vtu")
     with override():

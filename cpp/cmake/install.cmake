@@ -29,3 +29,15 @@ install(FILES "${CMAKE_CURRENT_BINARY_DIR}/polycube-config.cmake"
 
 configure_file(cmake/polycube.pc.in polycube.pc @ONLY)
 install(FILES "${CMAKE_CURRENT_BINARY_DIR}/polycube.pc" DESTINATION "${CMAKE_INSTALL_LIBDIR}/pkgconfig")
+
+# What cpack makes of it: an archive to unpack anywhere, and a package for Debian and its kin.
+set(CPACK_GENERATOR TGZ DEB)
+set(CPACK_PACKAGE_CONTACT "The Polycube authors")
+set(CPACK_PACKAGE_DESCRIPTION_SUMMARY "Coarse block structures, quad and hex meshes from polycubes, for C++")
+set(CPACK_RESOURCE_FILE_LICENSE "${root}/LICENSE-MIT")
+set(CPACK_DEBIAN_PACKAGE_NAME libpolycube-dev)
+set(CPACK_DEBIAN_FILE_NAME DEB-DEFAULT)
+set(CPACK_DEBIAN_PACKAGE_SECTION libdevel)
+set(CPACK_DEBIAN_PACKAGE_DEPENDS "libc6-dev, libstdc++-dev")
+set(CPACK_DEBIAN_PACKAGE_SUGGESTS "libopenmesh-dev, libcgal-dev")
+include(CPack)

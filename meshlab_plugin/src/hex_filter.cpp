@@ -18,9 +18,9 @@ class HexFilter final : public Filter {
     QString help() const override {
         return "Simplifies the polycube of a shape, which is made where there is none, and meshes the solid with "
                "hexahedra along the coarse block structure. "
-               "MeshLab holds no volumes, so they go to a file: .vtu or .vtk for ParaView, with scaled Jacobian, block "
-               "and label of each cell, .mesh (MEDIT), or with blocks and boundary by name .msh (Gmsh), .inp (Abaqus, "
-               "CalculiX) or .su2. Their boundary is shown as a new layer, coloured by block. "
+               "MeshLab holds no volumes, so they go to a file, where one is named: .vtu or .vtk for ParaView, with "
+               "scaled Jacobian, block and label of each cell, .mesh (MEDIT), or with blocks and boundary by name .msh "
+               "(Gmsh), .inp (Abaqus, CalculiX) or .su2. Their boundary is shown as a new layer, coloured by block. "
                "The log tells the counts, the least scaled Jacobian, and what was not possible. Ten thousand hexahedra "
                "take some seconds to a minute, and MeshLab cannot stop a filter on its way.";
     }
@@ -34,23 +34,17 @@ const QStringList SOLVERS = {"msh", "inp", "su2"};
 /// All that hexahedra are written to.
 const QStringList EXTENSIONS = QStringList{"vtu", "vtk", "mesh"} + SOLVERS;
 
-/// A file beside that of the current layer.
-QString proposed_file(const MeshDocument& document) {
-    if (document.mm() == nullptr) return "hexes.vtu";
-    const QFileInfo source(document.mm()->fullName());
-    if (document.mm()->fullName().isEmpty()) return "hexes.vtu";
-    return source.absolutePath() + "/" + source.completeBaseName() + ".hexes.vtu";
-}
-
-/// About half as many hexahedra as the layer has faces, within what takes seconds.
+/// About half as many hexahedra as the shape has faces, within what takes seconds.
 int proposed_count(const MeshDocument& document) {
-    return document.mm() == nullptr ? 5000 : std::min(std::max(document.mm()->cm.fn / 2, 1000), 10000);
+    const MeshModel* shape = proposed_shape(document);
+    return shape == nullptr ? 5000 : std::min(std::max(shape->cm.fn / 2, 1000), 10000);
 }
 
 void HexFilter::add_parameters(const MeshDocument& document, RichParameterList& parameters) const {
     const QString kinds = "Hexahedral mesh (*." + EXTENSIONS.join(" *.") + ")";
-    parameters.addParam(host::FileSave("file", proposed_file(document), kinds, "Write the hexahedra to",
-                                       "A file whose name ends in ." + EXTENSIONS.join(", .") + "."));
+    parameters.addParam(host::FileSave("file", "", kinds, "Write the hexahedra to",
+                                       "A file whose name ends in ." + EXTENSIONS.join(", .") +
+                                           ". Without a name they are shown, and none is written."));
     add_pair(document, parameters, MADE_OF_ALONE);
     parameters.addParam(RichInt("hexes", proposed_count(document), "Number of hexahedra",
                                 "About how many there shall be, padding included."));
@@ -58,12 +52,13 @@ void HexFilter::add_parameters(const MeshDocument& document, RichParameterList& 
                                 "How many layers of hexahedra lie between the blocks and the surface, 0 to 16. Without "
                                 "any, hexahedra on polycube edges are flat where the shape is smooth."));
     add_choice_by_quality(parameters, "blocks whose hexahedra are good, as quick coarse meshes show");
-    add_lock(document, parameters);
+    add_lock(parameters);
     add_tolerance(parameters);
 }
 
-/// The file to write. @throws std::invalid_argument if it cannot be one, before any work is done.
+/// The file to write, empty if none is named. @throws std::invalid_argument if it cannot be one, before any work.
 std::string checked_file(const QString& name) {
+    if (name.isEmpty()) return {};
     const QFileInfo file(name);
     const QString suffix = file.suffix().toLower();
     if (!EXTENSIONS.contains(suffix))
@@ -107,12 +102,13 @@ host::Values HexFilter::apply(const Call& call) const {
     MeshModel& layer = added.add(result.quads.mesh, target.label() + " hexes", &target);
     paint(cells_of_written(result.quads.mesh), colours_of(result.quads.block_id),
           {{"block_id", as_scalars(result.quads.block_id)}}, layer);
-    write(file, *result.hexes);
+    if (!file.empty()) write(file, *result.hexes);
+    remember_origin(layers, layer);
     added.keep();
     call.document.setVisible(layers.polycube.id(), false);
     call.document.setVisible(target.id(), false);
     call.log_all(meshed.pair.log);
-    call.log("written to " + file);
+    call.log(file.empty() ? "no file is named, so the hexahedra are shown only" : "written to " + file);
 
     host::Values values;
     add_counts(result.simplified.report(), values);

@@ -148,11 +148,6 @@ std::vector<std::uint32_t> selected_cells(const CMeshO& mesh, const Plain& plain
     return {selected.begin(), selected.end()};
 }
 
-bool has_selection(const CMeshO& mesh) {
-    const std::vector<const CFaceO*> faces = live_faces(mesh);
-    return std::any_of(faces.begin(), faces.end(), [](const CFaceO* face) { return face->IsS(); });
-}
-
 void write(const polycube::Mesh& mesh, MeshModel& layer) {
     add_vertices(mesh.points, layer.cm);
     if (mesh.kind == polycube::CellKind::quads) {

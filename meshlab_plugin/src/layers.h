@@ -31,9 +31,6 @@ std::vector<CFaceO*> live_faces(CMeshO& mesh);
 /// The cells of which a face is selected, in order.
 std::vector<std::uint32_t> selected_cells(const CMeshO& mesh, const Plain& plain);
 
-/// Whether a live face is selected.
-bool has_selection(const CMeshO& mesh);
-
 /// One scalar for every cell of a plain mesh, kept as a custom attribute of the layer under this name.
 struct Scalars {
     std::string name;

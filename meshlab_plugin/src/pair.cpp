@@ -27,16 +27,35 @@ const MeshModel* twin_of(const MeshModel* layer, const MeshDocument& document) {
     return layer;
 }
 
+/// The custom attribute of a result with the ids of the layers that it was made of.
+const char* const ORIGIN = "polycube_origin";
+using Ids = std::pair<int, int>;
+
+const MeshModel* layer_of(int id, const MeshDocument& document) {
+    for (const MeshModel* layer : host::layers(document))
+        if (layer->id() == id) return layer;
+    return nullptr;
+}
+
+/// The polycube and the shape that a result was made of; null where one is gone, and for other layers.
+std::pair<const MeshModel*, const MeshModel*> origin_of(const MeshModel& layer, const MeshDocument& document) {
+    // Looking changes nothing, but MeshLab's function is not made for constant meshes.
+    auto& mesh = const_cast<CMeshO&>(layer.cm);
+    auto ids = vcg::tri::Allocator<CMeshO>::FindPerMeshAttribute<Ids>(mesh, ORIGIN);
+    if (!vcg::tri::Allocator<CMeshO>::IsValidHandle(mesh, ids)) return {nullptr, nullptr};
+    return {layer_of(ids().first, document), layer_of(ids().second, document)};
+}
+
 /// The polycube and the shape that the dialog proposes; null in an empty document.
 std::pair<const MeshModel*, const MeshModel*> proposed_pair(const MeshDocument& document) {
     const MeshModel* current = document.mm();
     if (current == nullptr) return {nullptr, nullptr};
+    const auto origin = origin_of(*current, document);
+    if (origin.first != nullptr && origin.second != nullptr) return origin;
     const MeshModel* twin = twin_of(current, document);
     if (axis_alignment(twin->cm) > axis_alignment(current->cm)) return {twin, current};
     return {current, twin};
 }
-
-bool has_selection(const MeshModel* layer) { return layer != nullptr && has_selection(layer->cm); }
 
 bool shall_lock(const RichParameterList& parameters) {
     return parameters.hasParameter("lock_selected_faces") && parameters.getBool("lock_selected_faces");
@@ -82,10 +101,15 @@ void add_pair(const MeshDocument& document, RichParameterList& parameters, const
         "The layer with the shape that the polycube was deformed from; it has the same vertices and faces. " + alone));
 }
 
-void add_lock(const MeshDocument& document, RichParameterList& parameters) {
-    const auto [polycube, shape] = proposed_pair(document);
-    parameters.addParam(RichBool("lock_selected_faces", has_selection(polycube) || has_selection(shape),
-                                 "Lock selected faces",
+const MeshModel* proposed_shape(const MeshDocument& document) { return proposed_pair(document).second; }
+
+void remember_origin(const PairLayers& layers, MeshModel& result) {
+    vcg::tri::Allocator<CMeshO>::GetPerMeshAttribute<Ids>(result.cm, ORIGIN)() = {layers.polycube.id(),
+                                                                                 layers.target().id()};
+}
+
+void add_lock(RichParameterList& parameters) {
+    parameters.addParam(RichBool("lock_selected_faces", false, "Lock selected faces",
                                  "The plane sides of the polycube that hold a selected face stay where they are, up to "
                                  "rounding to the lattice. Faces may be selected on either layer."));
 }

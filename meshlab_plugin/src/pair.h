@@ -16,16 +16,23 @@ struct PairLayers {
     MeshModel& target() const { return shape != nullptr ? *shape : polycube; }
 };
 
-/// Adds the parameters `polycube` and `shape`; `alone` says what a layer alone is taken for. By default these are the
-/// current layer and another one with as many vertices and faces, the polycube being the one that looks along the axes.
+/// Adds the parameters `polycube` and `shape`; `alone` says what a layer alone is taken for. By default these are those
+/// that the current layer was made of, where it is a result; else the current layer and another one with as many
+/// vertices and faces, the polycube being the one that looks along the axes.
 void add_pair(const MeshDocument& document, RichParameterList& parameters,
               const QString& alone = "If there is none, choose the polycube here, too.");
 
 /// What filters that mesh take a layer alone for.
 extern const char* const MADE_OF_ALONE;
 
-/// Adds the parameter `lock_selected_faces`, on where faces of such a layer are selected.
-void add_lock(const MeshDocument& document, RichParameterList& parameters);
+/// The shape that `add_pair` proposes; null in an empty document.
+const MeshModel* proposed_shape(const MeshDocument& document);
+
+/// Lets a result know the layers that it was made of, so that the next filter finds them.
+void remember_origin(const PairLayers& layers, MeshModel& result);
+
+/// Adds the parameter `lock_selected_faces`.
+void add_lock(RichParameterList& parameters);
 
 /// The chosen layers. @throws std::invalid_argument if one has no faces.
 PairLayers chosen_pair(const Call& call);

@@ -27,6 +27,7 @@ void add_quad_layer(const Call& call, const PairLayers& layers, const polycube::
     NewLayers added(call.document);
     MeshModel& layer = added.add(quads, target.label() + suffix, &target);
     paint(cells_of_written(quads), colours_of(patch_id), scalars, layer);
+    remember_origin(layers, layer);
     added.keep();
     call.document.setVisible(layers.polycube.id(), false);
     call.document.setVisible(target.id(), false);
@@ -66,7 +67,7 @@ class LayoutFilter final : public Filter {
     void add_parameters(const MeshDocument& document, RichParameterList& parameters) const override {
         add_pair(document, parameters, MADE_OF_ALONE);
         add_choice_by_quality(parameters, UNFOLDED);
-        add_lock(document, parameters);
+        add_lock(parameters);
         add_scalar_choice(parameters);
         add_tolerance(parameters);
     }
@@ -107,14 +108,14 @@ class QuadFilter final : public Filter {
 
 void QuadFilter::add_parameters(const MeshDocument& document, RichParameterList& parameters) const {
     add_pair(document, parameters, MADE_OF_ALONE);
-    const MeshModel* current = document.mm();
-    const double length = current != nullptr ? mean_edge(current->cm) : 1.0;
-    const double diagonal = current != nullptr ? current->cm.bbox.Diag() : 1.0;
+    const MeshModel* shape = proposed_shape(document);
+    const double length = shape != nullptr ? mean_edge(shape->cm) : 1.0;
+    const double diagonal = shape != nullptr ? shape->cm.bbox.Diag() : 1.0;
     parameters.addParam(host::Percentage("edge_length", length, 0, diagonal, "Edge length",
                                          "The mean length of the quadrilaterals' edges; by default that of the "
-                                         "current layer."));
+                                         "shape."));
     add_choice_by_quality(parameters, UNFOLDED);
-    add_lock(document, parameters);
+    add_lock(parameters);
     add_scalar_choice(parameters);
     add_tolerance(parameters);
 }

@@ -37,7 +37,7 @@ void SimplifyFilter::add_parameters(const MeshDocument& document, RichParameterL
     parameters.addParam(host::Percentage("lattice_step", 0, 0, diagonal, "Lattice step (0 is automatic)",
                                          "The length of a lattice step. Automatic: 1 if all sides of the polycube lie "
                                          "on whole numbers, else the mean length of its edges."));
-    add_lock(document, parameters);
+    add_lock(parameters);
     parameters.addParam(RichBool("lattice_units", false, "Result in lattice units",
                                  "Give the result in steps of the lattice, with whole numbers for its sides, instead "
                                  "of in the units and at the place of the polycube."));
@@ -75,6 +75,7 @@ host::Values SimplifyFilter::apply(const Call& call) const {
            {"block_id", as_scalars(result.block_of_face)},
            {"label", as_scalars(result.label_of_face)}},
           layer);
+    remember_origin(layers, layer);
     added.keep();
     call.document.setVisible(layers.polycube.id(), false);
     if (layers.shape != nullptr) call.document.setVisible(layers.shape->id(), false);

@@ -211,6 +211,24 @@ def test_the_pair_is_found_whichever_layer_is_current(pair):
     assert (layers.current_mesh().vertex_matrix() == result(pair)).all()
 
 
+def test_filters_in_a_row_find_their_pair_again(pair):
+    made = {}
+    for name in ("quad_remesh", "coarse_quad_layout", "hex_remesh", "simplified"):
+        made[name] = document(*pair).apply_filter(f"generate_polycube_{name}")
+    layers = document(*pair)
+    for name in (*made, *reversed(made)):
+        again = layers.apply_filter(f"generate_polycube_{name}")
+        assert {key: again[key] for key in again} == {key: made[name][key] for key in made[name]}
+    # Where the pair is gone, the layer stands for itself.
+    quads = document(*pair)
+    quads.apply_filter("generate_polycube_quad_remesh", edge_length=ml.PureValue(4.0))
+    quads.set_current_mesh(0)
+    quads.delete_current_mesh()
+    quads.set_current_mesh(2)
+    assert not quads.apply_filter("compute_polycube_check")["valid"]
+    assert quads.current_mesh_id() == 2 and quads.current_mesh().selected_face_number() > 0
+
+
 @pytest.mark.parametrize("layer", ["shape", "polycube"])
 def test_selected_faces_stay_where_they_are(pair, layer):
     polycube = pair[0]
@@ -229,7 +247,10 @@ def test_selected_faces_stay_where_they_are(pair, layer):
     layers.set_current_mesh(["shape", "polycube"].index(layer))
     layers.compute_selection_by_condition_per_face(condselect=f"(fi == {face})")
     values = layers.apply_filter("generate_polycube_simplified", lattice_units=True)
-    assert values["locked_faces"] == 1, "a selection is used without asking"
+    assert values["locked_faces"] == 0, "a selection locks nothing unless that is asked for"
+    assert (layers.current_mesh().vertex_matrix() == free).all()
+    values = layers.apply_filter("generate_polycube_simplified", lattice_units=True, lock_selected_faces=True)
+    assert values["locked_faces"] == 1
     vertex = polycube.faces[face][0]
     kept = layers.current_mesh().vertex_matrix()[vertex][axis[face]]
     assert abs(kept - polycube.points[vertex][axis[face]]) <= 0.5
@@ -459,11 +480,21 @@ def test_a_broken_rounding_is_refused(pair):
 
 
 def test_files_that_cannot_be_are_refused_before_the_work(pair, tmp_path):
-    for name in ("", str(tmp_path / "hexes.obj"), str(tmp_path / "missing" / "hexes.vtu")):
+    for name in (str(tmp_path / "hexes.obj"), str(tmp_path / "missing" / "hexes.vtu")):
         fails(document(*pair), "Choose", "generate_polycube_hex_remesh", file=name)
     folder = tmp_path / "folder.vtu"
     folder.mkdir()
     fails(document(*pair), "folder.vtu", "generate_polycube_hex_remesh", file=str(folder), hexes=500)
+
+
+def test_without_a_file_hexahedra_are_shown_only(pair, tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    layers = ml.MeshSet()
+    for mesh, name in zip(reversed(pair), ("shape", "polycube")):
+        layers.load_new_mesh(str(mesh.write(tmp_path / f"{name}.off")))
+    values = layers.apply_filter("generate_polycube_hex_remesh", hexes=800)
+    assert values["hexes"] > 0 and layers.mesh_number() == 3
+    assert {path.name for path in tmp_path.iterdir()} == {"shape.off", "polycube.off"}
 
 
 def test_numbers_out_of_range_are_refused(pair, tmp_path):

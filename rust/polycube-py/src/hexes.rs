@@ -123,8 +123,20 @@ impl PyHexes {
     /// polycube): msh of Gmsh 4.1, inp of Abaqus and CalculiX, su2 of SU2, foam for the folder of an OpenFOAM case;
     /// or the block structure itself: json, xyz of Plot3D (no names), blockmesh for the folder of a case with a
     /// blockMeshDict of OpenFOAM.
-    fn write(&self, py: Python<'_>, path: PathBuf) -> PyResult<()> {
+    ///
+    /// Args:
+    ///     path: the file.
+    ///     points: (n, 3) float64. Where the vertices lie instead of `points`, as after a rigid motion; what is written
+    ///         of the hexahedra stays as it is.
+    ///
+    /// Raises:
+    ///     FileError: the file cannot be written.
+    ///     Unsupported: the format is unknown.
+    ///     InvalidMesh: `points` is no array of that shape, or not finite.
+    #[pyo3(signature = (path, points=None))]
+    fn write(&self, py: Python<'_>, path: PathBuf, points: Option<&Bound<'_, PyAny>>) -> PyResult<()> {
         let HexParts { mesh, block_id, boundary, fields, .. } = &*self.0;
+        let mesh = &points.map_or_else(|| Ok(mesh.clone()), |points| mesh.with_points(points))?;
         let extension = path.extension().unwrap_or_default().to_string_lossy();
         if extension.parse::<SolverFormat>().is_err() {
             return mesh.save(py, &path, fields);

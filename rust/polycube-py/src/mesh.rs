@@ -134,6 +134,21 @@ impl PyMesh {
 }
 
 impl PyMesh {
+    /// The same cells with their vertices elsewhere, of which there must be as many.
+    pub fn with_points(&self, points: &Bound<'_, PyAny>) -> PyResult<Self> {
+        let py = points.py();
+        let (points, shape) = arrays::real("points").read::<f64>(points)?;
+        let build = || {
+            let (points, count) = (to_points(&points, &shape)?, self.0.points().len());
+            if points.len() != count {
+                let message = format!("there are {} points, and the mesh has {count} vertices", points.len());
+                return Err(Error::new(ErrorKind::Mesh, message).remedy("give one row x, y, z per vertex"));
+            }
+            mesh::Mesh::new(points, self.0.cells().clone())
+        };
+        build().map(Self::from).map_err(|e| errors::raise(py, &e, None))
+    }
+
     /// The library's mesh, copied where another still holds it.
     pub fn into_inner(self) -> mesh::Mesh {
         Arc::unwrap_or_clone(self.0)

@@ -124,6 +124,26 @@ def test_the_same_bytes_as_the_command(tmp_path, command, pair, meshes):
     assert np.array_equal(again.cells, meshes.hexes.cells)
 
 
+def test_hexahedra_are_written_where_one_says(tmp_path, meshes):
+    hexes = meshes.hexes
+    turned = hexes.points @ [[0.0, 1.0, 0.0], [-1.0, 0.0, 0.0], [0.0, 0.0, 1.0]] + [1.0, 2.0, 3.0]
+    for extension in ("vtu", "msh"):
+        hexes.write(tmp_path / f"here.{extension}")
+        hexes.write(tmp_path / f"there.{extension}", points=turned)
+    here, there = (polycube.read(tmp_path / f"{name}.vtu") for name in ("here", "there"))
+    assert np.array_equal(there.points, turned) and np.array_equal(there.cells, here.cells)
+    # Gmsh's file lists the vertices by facet and block, those of both meshes alike.
+    here, there = (polycube.read(tmp_path / f"{name}.msh") for name in ("here", "there"))
+    assert np.array_equal(there.cells, here.cells)
+    assert {*map(tuple, there.points.tolist())} == {*map(tuple, turned.tolist())}
+    names = [(tmp_path / f"{name}.msh").read_text().split("$Entities")[0] for name in ("here", "there")]
+    assert names[0] == names[1] and "plus_z" in names[0]
+    for points in (turned[1:], turned[:, :2], np.full_like(turned, np.nan)):
+        with pytest.raises(polycube.InvalidMesh):
+            hexes.write(tmp_path / "none.msh", points=points)
+    assert not (tmp_path / "none.msh").exists()
+
+
 @pytest.mark.parametrize(
     "option",
     [
