@@ -2,8 +2,8 @@
 
 use super::cotangent::cotangent_weights;
 use super::harmonic::System;
-use super::krylov;
 use super::mean_value::mean_value_weights;
+use super::solve::solve;
 use super::sparse::{SparseRows, Values};
 use super::testing::{on_levels, real_polycubes, tet_box, tri_box, uneven};
 use crate::context::Context;
@@ -55,7 +55,7 @@ fn inside(folder: &Path, name: &str, mesh: &Mesh) {
 fn record<const N: usize>(folder: &Path, name: &str, system: &System<N>) {
     let (start, mut runs, mut solution) = (processor_seconds(), 0, Vec::new());
     while processor_seconds() < start + 0.5 {
-        solution = krylov::solve(&system.matrix, &system.sides, &Context::default()).unwrap();
+        solution = solve(&system.matrix, &system.sides, &Context::default()).unwrap();
         runs += 1;
     }
     let seconds = (processor_seconds() - start) / f64::from(runs);

@@ -1,6 +1,6 @@
 //! Extend values known at some vertices over the others so that each is the weighted mean of its neighbours.
 
-use super::krylov;
+use super::solve::solve;
 use super::sparse::{SparseRows, Values, add_scaled};
 use crate::context::Context;
 use crate::error::{Error, ErrorKind, Place, Result};
@@ -39,7 +39,7 @@ fn extend<const N: usize>(
     context: &Context,
 ) -> Result<()> {
     let system = System::new(weights, known, axes, field)?;
-    let solution = krylov::solve(&system.matrix, &system.sides, context)?;
+    let solution = solve(&system.matrix, &system.sides, context)?;
     for (&v, values) in system.unknowns.iter().zip(solution) {
         for (axis, value) in axes.into_iter().zip(values) {
             field[v as usize][axis] = value;

@@ -8,51 +8,49 @@
 use super::ilu::Ilu;
 use super::sparse::{SparseRows, Values};
 use crate::context::Context;
-use crate::error::{Error, ErrorKind, Result};
+use crate::error::Result;
 
 /// Relative residual one run aims for, by the recursion.
 const GOAL: f64 = 1e-11;
 /// Relative residual that is enough, computed afresh after a run.
-const ENOUGH: f64 = 1e-10;
-/// Relative residual that is still returned when rounding allows no better.
-const ACCEPTABLE: f64 = 1e-6;
+pub(super) const ENOUGH: f64 = 1e-10;
 /// Relative residual after a run from which no further one comes back.
 const DIVERGED: f64 = 1e3;
 /// Below this cosine between shadow and residual, rounding alone says where the next direction leads: a run ends there,
 /// and the next one casts a new shadow. Symmetric polycubes come to it.
 const ORTHOGONAL: f64 = 1e-12;
-/// Runs before giving up.
-const RUNS: usize = 20;
-/// Iterations in one run.
+/// Most iterations in one run.
 const ITERATIONS: usize = 2000;
 
-/// Solves `A x = b` to a relative residual of 1e-10 in each column, by the stabilised
-/// bi-conjugate gradients of van der Vorst (1992), preconditioned from the right by [`Ilu`].
+/// The solution of `A x = b` as far as at most `iterations` come, by the stabilised bi-conjugate gradients of van der
+/// Vorst (1992), preconditioned from the right by [`Ilu`].
 ///
 /// # Errors
-/// [`ErrorKind::Internal`] if the residual stays above 1e-6; [`ErrorKind::Cancelled`].
-pub(super) fn solve<const N: usize>(a: &SparseRows, b: &[Values<N>], context: &Context) -> Result<Vec<Values<N>>> {
+/// [`ErrorKind::Cancelled`](crate::error::ErrorKind::Cancelled).
+pub(super) fn solve<const N: usize>(
+    a: &SparseRows,
+    b: &[Values<N>],
+    iterations: usize,
+    context: &Context,
+) -> Result<Vec<Values<N>>> {
     let ilu = Ilu::new(a, context)?;
     let size = norms(b);
     let mut x = vec![[0.0; N]; b.len()];
-    for _ in 0..RUNS {
+    let mut used = 0;
+    while used < iterations {
         let residual = residual(a, b, &x);
         let left = worst(&norms(&residual), &size);
-        if left <= ENOUGH {
-            return Ok(x);
-        }
-        if left > DIVERGED || left.is_nan() {
+        if left <= ENOUGH || left > DIVERGED || left.is_nan() {
             break;
         }
-        Run::new(a, &ilu, residual, size).iterate(&mut x, context)?;
+        used += Run::new(a, &ilu, residual, size).iterate(&mut x, (iterations - used).min(ITERATIONS), context)?;
     }
-    let left = worst(&norms(&residual(a, b, &x)), &size);
-    if left <= ACCEPTABLE {
-        return Ok(x);
-    }
-    let message = format!("the Laplace problem was solved to {left:.0e} only");
-    Err(Error::new(ErrorKind::Internal, message)
-        .remedy("look for extremely thin triangles or tetrahedra in the polycube"))
+    Ok(x)
+}
+
+/// The largest residual of a column, relative to its right-hand side.
+pub(super) fn relative_residual<const N: usize>(a: &SparseRows, b: &[Values<N>], x: &[Values<N>]) -> f64 {
+    worst(&norms(&residual(a, b, x)), &norms(b))
 }
 
 /// One run of the method, with a fresh shadow residual.
@@ -97,15 +95,16 @@ impl<'a, const N: usize> Run<'a, N> {
         }
     }
 
-    /// Improves `x` until every column is good or broken down.
-    fn iterate(mut self, x: &mut [Values<N>], context: &Context) -> Result<()> {
-        for _ in 0..ITERATIONS {
+    /// Improves `x` until every column is good or broken down, or for so many iterations; returns how many, at least
+    /// one.
+    fn iterate(mut self, x: &mut [Values<N>], iterations: usize, context: &Context) -> Result<usize> {
+        for used in 0..iterations {
             if self.open == [false; N] {
-                break;
+                return Ok(used.max(1));
             }
             self.step(x, context)?;
         }
-        Ok(())
+        Ok(iterations)
     }
 
     fn step(&mut self, x: &mut [Values<N>], context: &Context) -> Result<()> {
@@ -157,7 +156,7 @@ impl<'a, const N: usize> Run<'a, N> {
     }
 }
 
-fn residual<const N: usize>(a: &SparseRows, b: &[Values<N>], x: &[Values<N>]) -> Vec<Values<N>> {
+pub(super) fn residual<const N: usize>(a: &SparseRows, b: &[Values<N>], x: &[Values<N>]) -> Vec<Values<N>> {
     let mut r = vec![[0.0; N]; b.len()];
     a.multiply(x, &mut r);
     for (r, b) in r.iter_mut().zip(b) {
@@ -223,7 +222,7 @@ mod tests {
             let a = matrix(n, &mut random);
             let n = n as usize;
             let b: Vec<_> = (0..n).map(|_| [random.unit(), 0.0, random.unit() - 0.5]).collect();
-            let x = solve(&a, &b, &Context::default()).unwrap();
+            let x = solve(&a, &b, 2000, &Context::default()).unwrap();
             let mut dense = DMatrix::zeros(n, n);
             for i in 0..n {
                 for (j, v) in a.row(i) {
@@ -237,14 +236,5 @@ mod tests {
                 prop_assert!(error <= 1e-7 * expected.amax(), "column {k}: {error:e}");
             }
         }
-    }
-
-    #[test]
-    fn a_singular_system_is_an_error() {
-        let mut a = SparseRows::new();
-        a.push(&mut vec![(0, 1.0), (1, -1.0)]);
-        a.push(&mut vec![(0, -1.0), (1, 1.0)]);
-        let error = solve(&a, &[[1.0], [1.0]], &Context::default()).unwrap_err();
-        assert_eq!(error.kind, ErrorKind::Internal);
     }
 }

@@ -117,6 +117,46 @@ fn slivers_keep_the_precision() {
     }
 }
 
+/// Walls down to 1e-5 of the box's size thin, where iterating gets nowhere. What is left of every equation is computed
+/// from the gradients of linear elements, not from cotangents.
+#[test]
+fn thin_walls_are_morphed_exactly() {
+    let n = 24;
+    let mut mesh = tri_box([n, n, n]);
+    let mut random = crate::rng::SplitMix64::new(11);
+    let lines = [0, 1, 2].map(|_| {
+        let mut at = vec![0.0];
+        for i in 0..n as usize {
+            at.push(at[i] + libm::exp(-11.0 * random.unit()));
+        }
+        at
+    });
+    for p in mesh.points_mut() {
+        *p = Point::new(lines[0][p.x as usize], lines[1][p.y as usize], lines[2][p.z as usize]);
+    }
+    let mut fixed = levels(&mesh);
+    for (f, p) in fixed.iter_mut().zip(mesh.points()) {
+        f[2] = f[2].map(|z| z + p.x * p.y);
+    }
+    let moved = run(&mesh, &fixed);
+    let (mut left, mut pull) = (vec![0.0; moved.len()], vec![0.0; moved.len()]);
+    let crate::mesh::Cells::Triangles(triangles) = mesh.cells() else { panic!() };
+    for t in triangles.iter().map(|t| t.map(|v| v as usize)) {
+        let p = t.map(|v| mesh.points()[v]);
+        let normal = (p[1] - p[0]).cross(&(p[2] - p[0]));
+        let gradient = [0, 1, 2].map(|k| normal.cross(&(p[(k + 2) % 3] - p[(k + 1) % 3])) / normal.norm_squared());
+        for (i, j) in (0..3).flat_map(|i| (0..3).map(move |j| (i, j))) {
+            let entry = normal.norm() * gradient[i].dot(&gradient[j]);
+            let part = entry * (moved[t[j]].z - mesh.points()[t[j]].z);
+            left[t[i]] += part;
+            pull[t[i]] += if fixed[t[j]][2].is_some() { part } else { 0.0 };
+        }
+    }
+    let free = |v: &usize| fixed[*v][2].is_none() && fixed[*v].iter().any(Option::is_some);
+    let size = |of: &[f64]| (0..of.len()).filter(free).map(|v| of[v] * of[v]).sum::<f64>().sqrt();
+    assert!(size(&pull) > 0.0 && size(&left) <= 1e-6 * size(&pull), "{:e}", size(&left) / size(&pull));
+}
+
 #[test]
 fn inner_prescriptions_are_met() {
     let mesh = hex_box([4, 4, 4]);
