@@ -44,7 +44,12 @@ pub(super) struct Census {
     pub(super) least: f64,
     /// Mean over the cells of the worst quality of each; 1 for no cell.
     pub(super) average: f64,
+    /// How bad the energy of the springs is, against the worst quality; 0 without any.
+    pub(super) tension: f64,
 }
+
+/// The state of no element.
+const NOTHING: Census = Census { inverted: 0, worst: 1.0, least: f64::INFINITY, average: 0.0, tension: 0.0 };
 
 impl<'a> Assembly<'a> {
     /// For elements over `count` vertices. Linear time.
@@ -85,7 +90,8 @@ impl<'a> Assembly<'a> {
             let range = starts[v] as usize..starts[v + 1] as usize;
             *g = slots[range].iter().map(|&(c, i)| chunks[c as usize].gradient[usize::from(i)]).sum();
         });
-        Ok(self.chunks.iter().map(|c| c.energy).sum())
+        let energy: f64 = self.chunks.iter().map(|c| c.energy).sum();
+        Ok(energy + elements.springs.pull(points, gradient))
     }
 
     /// The quality at `points`.
@@ -95,7 +101,7 @@ impl<'a> Assembly<'a> {
         let chunks = (0..cells.div_ceil(per_chunk)).into_par_iter();
         let part = |i: usize| self.part(points, i * per_chunk..((i + 1) * per_chunk).min(cells));
         let parts: Vec<Census> = chunks.map(part).collect();
-        let mut all = Census { inverted: 0, worst: 1.0, least: f64::INFINITY, average: 0.0 };
+        let mut all = Census { tension: self.elements.springs.tension(points), ..NOTHING };
         for part in parts {
             all.inverted += part.inverted;
             all.worst = all.worst.min(part.worst);
@@ -114,7 +120,7 @@ impl<'a> Assembly<'a> {
 
     /// The census of some cells, with the sum for the average.
     fn part(&self, points: &[Point], cells: std::ops::Range<usize>) -> Census {
-        let mut census = Census { inverted: 0, worst: 1.0, least: f64::INFINITY, average: 0.0 };
+        let mut census = NOTHING;
         for cell in cells {
             let mut worst = 1.0_f64;
             for e in self.elements_of(cell) {

@@ -1,6 +1,7 @@
 //! The corner tetrahedra whose shapes are optimised, each with the shape it should have.
 
 use super::sizes::{fair, sizes};
+use super::springs::{Spring, Springs};
 use crate::error::{Error, ErrorKind, Place, Result};
 use crate::measure::{AIM, Fair, corner_soundness, edges, mean_determinant, or_worst};
 use crate::mesh::Point;
@@ -67,6 +68,8 @@ pub struct Elements {
     pub(super) offsets: Vec<Vector3<f64>>,
     /// The mean determinant of the edges; 0 as long as it is not known.
     pub(super) mean: f64,
+    /// What pulls at their vertices.
+    pub(super) springs: Springs,
 }
 
 /// Elements that a thread takes at least.
@@ -134,6 +137,12 @@ impl Elements {
         Ok(Self::boxes(hexes, points, &fair(sizes(hexes, &EDGES, points, smoothing))))
     }
 
+    /// Fastens `springs` to their vertices, in place of those there were. Where these have `unit` more energy than at
+    /// `points`, that is as bad as a worst quality less by 1.
+    pub(crate) fn fasten(&mut self, springs: Vec<Spring>, points: &[Point], unit: f64) {
+        self.springs = Springs::new(springs, points, unit);
+    }
+
     fn boxes(hexes: &[[u32; 8]], points: &[Point], sizes: &[[f64; 3]]) -> Self {
         let shapes = sizes.iter().flat_map(corner_shapes).collect();
         let own = Self::new(corners(hexes), shapes, vec![1.0; 8 * hexes.len()], 8, Measure::ScaledJacobian);
@@ -148,7 +157,16 @@ impl Elements {
         measure: Measure,
     ) -> Self {
         let references = shapes.iter().map(Reference::new).collect();
-        Self { corners, references, weights, per_cell, measure, offsets: Vec::new(), mean: 0.0 }
+        Self {
+            corners,
+            references,
+            weights,
+            per_cell,
+            measure,
+            offsets: Vec::new(),
+            mean: 0.0,
+            springs: Springs::default(),
+        }
     }
 
     /// The determinant of the edges below which an element is less sound, see [`corner_soundness`].
@@ -189,7 +207,7 @@ impl Elements {
         corners.iter().flat_map(move |corner| &corner[..own]).copied()
     }
 
-    /// Some of the cells, with vertices numbered by `own`.
+    /// Some of the cells, with vertices numbered by `own`, without springs.
     pub(super) fn some(&self, cells: &[u32], own: impl Fn(u32) -> u32) -> Self {
         let all = || cells.iter().flat_map(|&cell| (0..self.per_cell).map(move |k| cell as usize * self.per_cell + k));
         Self {
@@ -197,6 +215,7 @@ impl Elements {
             references: all().map(|e| self.references[e]).collect(),
             weights: all().map(|e| self.weights[e]).collect(),
             offsets: all().filter_map(|e| self.offsets.get(e).copied()).collect(),
+            springs: Springs::default(),
             ..*self
         }
     }

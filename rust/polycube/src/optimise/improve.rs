@@ -20,7 +20,7 @@ const AVERAGE: f64 = 0.5;
 
 /// How good a state is.
 pub(super) fn score(census: &Census) -> f64 {
-    census.worst + AVERAGE * census.average
+    census.worst + AVERAGE * census.average - census.tension
 }
 
 /// The states that rounds of improvement led to.

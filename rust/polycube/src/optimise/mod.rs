@@ -32,6 +32,7 @@ mod region;
 mod relax;
 mod room;
 mod sizes;
+mod springs;
 #[cfg(test)]
 mod tests;
 mod untangle;
@@ -40,6 +41,7 @@ pub use elements::Elements;
 pub use freedom::Freedom;
 pub use guide::{CurveGuide, Guide, SurfaceGuide, Tangent};
 pub(crate) use relax::relax;
+pub(crate) use springs::Spring;
 
 use crate::context::Context;
 use crate::error::{Error, ErrorKind, Place, Result};

@@ -1,6 +1,6 @@
 //! A mesh on the way to be improved, with its surface on that of the shape.
 
-use super::sliding::Sliding;
+use super::sliding::{Hold, Sliding};
 use crate::context::Context;
 use crate::error::Result;
 use crate::measure::{ACCEPTED, mean_determinant, soundness};
@@ -33,9 +33,27 @@ pub(crate) struct Fitting<'a> {
     pub(crate) fitted: Fitted<'a>,
     pub(crate) freedom: Vec<Freedom>,
     pub(crate) released: usize,
+    /// How near springs keep it to the shape, if they do.
+    pub(crate) kept: Option<f64>,
 }
 
 impl<'a> Fitting<'a> {
+    /// Before anything is done to it.
+    pub(crate) fn new(fitted: Fitted<'a>, sliding: &'a Sliding) -> Result<Self> {
+        let elements = elements(&fitted, sliding, fitted.mesh.points(), true)?;
+        let freedom = sliding.freedoms(fitted.carriers, Hold::Corners);
+        Ok(Self { elements, guides: sliding.guides(), sliding, fitted, freedom, released: 0, kept: None })
+    }
+
+    /// Back to where its vertices were at the `start`, to cells of the sizes there, or fair ones.
+    pub(crate) fn reset(&mut self, start: &[Point], is_fair: bool) -> Result<()> {
+        self.freedom = self.sliding.freedoms(self.fitted.carriers, Hold::Corners);
+        self.released = 0;
+        self.points_mut().copy_from_slice(start);
+        self.elements = elements(&self.fitted, self.sliding, start, is_fair)?;
+        Ok(())
+    }
+
     pub(crate) fn points(&self) -> &[Point] {
         self.fitted.mesh.points()
     }

@@ -1,7 +1,7 @@
 //! Optimises hexahedra with their surface on that of the shape.
 
 use super::distant_points::{farthest, samples};
-use super::fitting::{Fitted, Fitting, POOR, elements};
+use super::fitting::{Fitted, Fitting, POOR};
 use super::sliding::{Hold, Sliding};
 use crate::context::Context;
 use crate::error::Result;
@@ -17,21 +17,48 @@ const LEAST_GAIN: f64 = 0.015;
 const LEFT: f64 = 0.5;
 /// Most rounds of untangling after the vertices in the way were released.
 const LATE_ROUNDS: usize = 15;
+/// A mesh from which a finer one starts may be so many times as far from the shape as the last.
+const COARSER: f64 = 2.0;
+/// What sticks out is lost where the shape is so many times farther than it shall be,
+const FAR: f64 = 2.0;
+/// and kept by what leaves no more than this part of that.
+pub(crate) const NEARER: f64 = 0.8;
 /// More of the shape is lost where it is so many times farther from the mesh than before.
 const LOST: f64 = 1.25;
 /// How often vertices of inverted hexahedra are released.
 const RELEASES: usize = 4;
 
-/// What a mesh is for.
+/// What a mesh is for, and how near the last one shall be to the shape.
 #[derive(Clone, Copy, PartialEq)]
 pub(crate) enum Aim {
-    /// It is the last; the shape shall be no farther from it than this.
+    /// It is the last.
     Within(f64),
     /// A finer one starts from it.
-    Coarse,
+    Coarse(f64),
     /// It is one of several that show what can be had, and is given up where many hexahedra stay inverted while edges
     /// are held.
-    Trial,
+    Trial(f64),
+}
+
+impl Aim {
+    fn is_trial(self) -> bool {
+        matches!(self, Self::Trial(_))
+    }
+
+    /// How near the last one shall be.
+    pub(crate) fn bound(self) -> f64 {
+        match self {
+            Self::Within(bound) | Self::Coarse(bound) | Self::Trial(bound) => bound,
+        }
+    }
+
+    /// How near the shape may be expected to be.
+    fn nearness(self) -> f64 {
+        match self {
+            Self::Within(bound) => bound,
+            Self::Coarse(bound) | Self::Trial(bound) => COARSER * bound,
+        }
+    }
 }
 
 /// What became of a mesh.
@@ -43,6 +70,13 @@ pub(crate) struct Improved {
     pub(crate) far: f64,
     /// How sound the worst cell is.
     pub(crate) soundness: f64,
+}
+
+impl Improved {
+    /// How far the shape is if what sticks out of it is not in the mesh; else 0.
+    pub(crate) fn lost(&self, aim: Aim) -> f64 {
+        if self.far > FAR * aim.nearness() { self.far } else { 0.0 }
+    }
 }
 
 /// Moves the vertices of a mesh until no hexahedron is inverted and the worst is as good as can be had.
@@ -62,26 +96,13 @@ pub(crate) fn improve(
 ) -> Result<Improved> {
     let sliding = Sliding::new(polycube, shape, &context.stage("untangle", 0.0, 0.0))?;
     let start = fitted.mesh.points().to_vec();
-    let fair = elements(&fitted, &sliding, &start, true)?;
+    let samples = samples(&polycube.surface, shape);
+    let mut fitting = Fitting::new(fitted, &sliding)?;
     context.stage("untangle", 0.0, 0.0).tick(0.0)?;
-    let freedom = sliding.freedoms(fitted.carriers, Hold::Corners);
-    let mut fitting =
-        Fitting { elements: fair, guides: sliding.guides(), sliding: &sliding, fitted, freedom, released: 0 };
-    fitting.untangle(settings, aim != Aim::Trial, &context.stage("untangle", 0.0, 0.2))?;
-    if aim != Aim::Trial && fitting.inverted() > 0 {
-        // Fair sizes may not be to be had: then those there are.
-        fitting.elements = elements(&fitting.fitted, &sliding, &start, false)?;
-        fitting.freedom = sliding.freedoms(fitting.fitted.carriers, Hold::Corners);
-        fitting.released = 0;
-        fitting.points_mut().copy_from_slice(&start);
-        fitting.untangle(settings, true, &context.stage("untangle", 0.2, 0.4))?;
-    }
-    if aim == Aim::Trial && fitting.is_hopeless() {
+    if !fitting.fit(&start, &samples, settings, aim, context)? {
         return Ok(Improved { released: fitting.released, far: 0.0, soundness: fitting.soundness() });
     }
-    let samples = samples(&polycube.surface, shape);
-    fitting.passes(&samples, settings, &context.stage("optimise", 0.4, 0.8))?;
-    let mut far = 0.0;
+    let mut far = fitting.keep(&start, &samples, settings, aim, context)?;
     if let Aim::Within(bound) = aim {
         let settings = Settings { untangle_rounds: settings.untangle_rounds.min(LATE_ROUNDS), ..settings.clone() };
         far = fitting.limit_chord_error(&samples, bound, &settings, &context.stage("optimise", 0.8, 0.9))?;
@@ -91,6 +112,57 @@ pub(crate) fn improve(
 }
 
 impl Fitting<'_> {
+    /// Untangles and improves the mesh from the `start`. Whether it was not given up.
+    fn fit(
+        &mut self,
+        start: &[Point],
+        samples: &[Point],
+        settings: &Settings,
+        aim: Aim,
+        context: &Context,
+    ) -> Result<bool> {
+        self.untangle(settings, !aim.is_trial(), &context.stage("untangle", 0.0, 0.2))?;
+        if !aim.is_trial() && self.inverted() > 0 {
+            // Fair sizes may not be to be had: then those there are.
+            self.reset(start, false)?;
+            self.untangle(settings, true, &context.stage("untangle", 0.2, 0.4))?;
+        }
+        if aim.is_trial() && self.is_hopeless() {
+            return Ok(false);
+        }
+        self.passes(samples, settings, &context.stage("optimise", 0.4, 0.8)).map(|()| true)
+    }
+
+    /// Where what sticks out of the shape was lost, makes the mesh again from the `start` with springs that keep it
+    /// there, and takes that if it is much nearer. How far the shape is then; 0 where nothing is lost.
+    fn keep(
+        &mut self,
+        start: &[Point],
+        samples: &[Point],
+        settings: &Settings,
+        aim: Aim,
+        context: &Context,
+    ) -> Result<f64> {
+        let faces = self.fitted.mesh.cells().boundary()?;
+        let rank = |fitting: &Self| (fitting.inverted(), farthest(fitting.points(), &faces, samples));
+        let (inverted, far) = rank(self);
+        if far <= FAR * aim.nearness() {
+            return Ok(0.0);
+        }
+        let before = (self.points().to_vec(), self.freedom.clone(), self.released);
+        self.reset(start, true)?;
+        self.kept = Some(aim.nearness());
+        let fitted = self.fit(start, samples, settings, aim, context)?;
+        let now = rank(self);
+        if !fitted || now.0 > inverted || now.1 > NEARER * far {
+            self.kept = None;
+            self.points_mut().copy_from_slice(&before.0);
+            (self.freedom, self.released) = (before.1, before.2);
+            return Ok(far);
+        }
+        Ok(if now.1 <= FAR * aim.nearness() { 0.0 } else { now.1 })
+    }
+
     /// Untangling alone, with more and more vertices that may move, until no hexahedron is inverted; without patience
     /// only as long as there is hope.
     fn untangle(&mut self, settings: &Settings, patient: bool, context: &Context) -> Result<()> {
@@ -138,6 +210,9 @@ impl Fitting<'_> {
             let [from, to] = [pass, pass + 1].map(|p| p as f64 / PASSES as f64);
             context.tick(from)?;
             self.resize()?;
+            if let Some(nearness) = self.kept {
+                self.fasten(samples, nearness)?;
+            }
             context.tick(from)?;
             let (before, start) = (self.released, (self.points().to_vec(), self.freedom.clone()));
             if may_release {

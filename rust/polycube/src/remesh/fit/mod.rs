@@ -7,6 +7,7 @@ mod distant_points;
 mod fitting;
 mod improve;
 mod sliding;
+mod springs;
 
 pub(crate) use fitting::Fitted;
-pub(crate) use improve::{Aim, Improved, improve};
+pub(crate) use improve::{Aim, Improved, NEARER, improve};

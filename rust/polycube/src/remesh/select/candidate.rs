@@ -52,7 +52,8 @@ impl Candidate {
         let mut coarse = None;
         let hopeless = folded > 0 && several;
         let blocks = simplified.report.after.map_or(0, |counts| counts.blocks_padded);
-        let aim = if several { Aim::Trial } else { Aim::Coarse };
+        let bound = options.distance_bound(&shape);
+        let aim = if several { Aim::Trial(bound) } else { Aim::Coarse(bound) };
         if !options.surface_only && !hopeless {
             coarse = mesh_coarsely(&map, blocks, &shape, options, aim, &context.stage("map", 0.4, 1.0))?;
         }

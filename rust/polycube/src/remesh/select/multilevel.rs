@@ -7,7 +7,7 @@ use crate::context::Context;
 use crate::error::{Error, ErrorKind, Result};
 use crate::mesh::Mesh;
 use crate::optimise::{Scope, Settings};
-use crate::remesh::fit::{Aim, Fitted, Improved, improve};
+use crate::remesh::fit::{Aim, Fitted, Improved, NEARER, improve};
 use crate::remesh::lattice::count_hexes;
 use crate::remesh::map::LatticeMap;
 use crate::remesh::mesher::{Hexes, Remesher};
@@ -105,24 +105,28 @@ pub(crate) fn finish(
     let coarse = coarse.filter(|r| r.quality.worst > 0.0);
     let mut ways: Vec<Start> = coarse.iter().map(Start::Coarse).collect();
     ways.extend([Start::Map(Scope::NearFirst), Start::Surface]);
-    if aim != Aim::Trial {
+    if !matches!(aim, Aim::Trial(_)) {
         ways.push(Start::Map(Scope::Whole));
     }
-    let mut best: Option<(usize, Hexes, Improved)> = None;
+    let mut best: Option<((usize, f64), Hexes, Improved)> = None;
     for start in ways {
+        let must_turn = best.as_ref().is_some_and(|best| best.0.0 > 0);
         let (mut tried, scope) = match start {
             Start::Coarse(coarse) => (coarse.started(remesher, hexes)?, Scope::NearFirst),
+            Start::Map(Scope::NearFirst) => (hexes.clone(), Scope::NearFirst),
+            // Only what is inverted is worth that.
+            _ if !must_turn => break,
             Start::Map(scope) => (hexes.clone(), scope),
-            Start::Surface => (with_surface_first(remesher, padding, context)?, Scope::NearFirst),
+            Start::Surface => (with_surface_first(remesher, padding, aim, context)?, Scope::NearFirst),
         };
         let settings = Settings { scope, ..Settings::default() };
         let fitted = Fitted { mesh: &mut tried.mesh, carriers: &tried.carriers, facets: &[] };
         let improved = improve(&remesher.map.polycube, fitted, remesher.shape, &settings, aim, context)?;
-        let inverted = tried.quality().inverted;
-        if best.as_ref().is_none_or(|best| inverted < best.0) {
-            best = Some((inverted, tried, improved));
+        let (inverted, lost) = (tried.quality().inverted, improved.lost(aim));
+        if best.as_ref().is_none_or(|&((most, far), ..)| inverted < most || inverted == most && lost < NEARER * far) {
+            best = Some(((inverted, lost), tried, improved));
         }
-        if inverted == 0 {
+        if inverted == 0 && lost == 0.0 {
             break;
         }
     }
@@ -132,9 +136,9 @@ pub(crate) fn finish(
 }
 
 /// Hexahedra within the surface as it is best by itself.
-fn with_surface_first(remesher: &Remesher, padding: usize, context: &Context) -> Result<Hexes> {
+fn with_surface_first(remesher: &Remesher, padding: usize, aim: Aim, context: &Context) -> Result<Hexes> {
     let mut quads = remesher.quads(context)?;
     let fitted = Fitted { mesh: &mut quads.mesh, carriers: &quads.carriers, facets: &remesher.facets() };
-    improve(&remesher.map.polycube, fitted, remesher.shape, &Settings::default(), Aim::Coarse, context)?;
+    improve(&remesher.map.polycube, fitted, remesher.shape, &Settings::default(), Aim::Coarse(aim.bound()), context)?;
     remesher.hexes_within(&quads, padding, context)
 }

@@ -3,11 +3,12 @@
 use super::{Case, cells, generated, quality};
 use crate::align::Strategy;
 use crate::context::Context;
-use crate::generate::{Example, example};
+use crate::generate::{Cuboid, Example, Voxels, example};
 use crate::measure::hausdorff;
 use crate::mesh::{CellKind, Face, Mesh, Point};
 use crate::remesh::lattice::Carrier;
-use crate::simplify::SimplifyOptions;
+use crate::remesh::{RemeshOptions, Size, remesh};
+use crate::simplify::{Input, SimplifyOptions};
 use crate::spatial::Nearest;
 
 fn size(mesh: &Mesh) -> f64 {
@@ -49,6 +50,27 @@ pub(crate) fn check(case: &Case) {
         let on_boundary = |v: &u32| hexes.carriers[*v as usize].is_surface();
         assert!(boundary.iter().all(|f| f.vertices().iter().all(on_boundary)));
     }
+}
+
+/// A bump that no edge of the polycube shows is not worth giving up for better cells.
+#[test]
+fn what_sticks_out_of_a_facet_is_meshed() {
+    const HEIGHT: f64 = 12.0;
+    let cube = Voxels::from_boxes(&[Cuboid::new([0; 3], [24; 3])]).unwrap();
+    let polycube = cube.mesh(CellKind::Triangles, 1.0).unwrap();
+    let raised = |p: &Point| {
+        let square = ((p.x - 12.0).powi(2) + (p.y - 24.0).powi(2)) / 2.4_f64.powi(2);
+        let height = if p.z == 24.0 { HEIGHT * (-square / 2.0).exp() } else { 0.0 };
+        Point::new(p.x, p.y, p.z + height)
+    };
+    let shape = polycube.clone().with_points(polycube.points().iter().map(raised).collect()).unwrap();
+    let input = Input { polycube: &polycube, shape: Some(&shape), labels: None };
+    let options = RemeshOptions { size: Some(Size::Hexes(1500)), ..RemeshOptions::default() };
+    let found = remesh(&input, &options, &Context::default()).unwrap();
+    assert_eq!(found.report.inverted, 0);
+    let index = surface(&found.hexes.unwrap().mesh);
+    let lost = shape.points().iter().map(|p| index.distance(p)).fold(0.0, f64::max);
+    assert!(lost < HEIGHT / 4.0, "{lost}");
 }
 
 /// A polycube that is its own shape gives its own lattice.
