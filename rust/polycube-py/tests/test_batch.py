@@ -22,8 +22,8 @@ def box(folder, i: int, size: float = 1):
 
 
 def endless(folder, i: int):
-    """A box that takes millions of hexahedra."""
-    return box(folder, i, size=50)
+    """A box that takes nearly a million hexahedra."""
+    return box(folder, i, size=37 / (1 + i / 8) ** (1 / 3))
 
 
 @pytest.fixture(scope="module")

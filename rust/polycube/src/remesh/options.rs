@@ -18,7 +18,8 @@ pub struct RemeshOptions {
     /// or how distorted the map may be, more blocks than the fewest are taken where those make poor hexahedra, and a
     /// note says so.
     pub simplify: simplify::SimplifyOptions,
-    /// How fine the mesh shall be; by default as [`simplify::SimplifyOptions::scale`] says.
+    /// How fine the mesh shall be; by default as [`simplify::SimplifyOptions::scale`] says. More than a million
+    /// hexahedra are made only where their number is given.
     pub size: Option<Size>,
     /// Layers of hexahedra between the polycube and the surface, 0 to 16; 1 by default.
     pub padding: usize,

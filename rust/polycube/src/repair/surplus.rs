@@ -46,6 +46,9 @@ impl Work<'_> {
             *inner = middle.is_some_and(|middle| winding(self.points, others, &middle).abs() > ENCLOSED);
         }
         let kept: Vec<bool> = sheet.iter().map(|&s| !inner[s as usize]).collect();
+        if !kept.contains(&true) {
+            return;
+        }
         let outside = faces.iter().zip(&kept).filter(|(_, kept)| **kept).map(|(f, _)| *f).collect();
         let fewer = Surface::new(outside, self.points.len()).map_or_else(|v| v.len(), |_| 0) < violations.len();
         let count = kept.iter().filter(|kept| !**kept).count();

@@ -181,3 +181,13 @@ fn duplicates_and_faces_inside_are_left_out() {
     let again = Mesh::new(tetrahedra.points().to_vec(), again).unwrap();
     assert_eq!(repairs(&again, None).1, [Repair::Duplicates(3)]);
 }
+
+/// Found by fuzzing: where each part is enclosed by the others, none is inside.
+#[test]
+fn parts_that_enclose_each_other_stay() {
+    let points = [[4.0; 3], [4.0; 3], [4.0; 3], [0.0; 3], [0.0; 3], [0.0, 4.0, 3.0]].map(Point::from);
+    let quads = vec![[3, 4, 1, 0], [5, 3, 4, 1], [4, 2, 1, 3]];
+    let mesh = Mesh::new(points.to_vec(), Cells::Quads(quads)).unwrap();
+    let input = Input { polycube: &mesh, shape: None, labels: None };
+    assert!(repair(&input).is_none_or(|repaired| !repaired.polycube.cells().is_empty()));
+}

@@ -39,7 +39,8 @@ impl<'a> Overlaps<'a> {
         let faces = Faces::new(self.polycube, points);
         let meet = self.conflicts.iter().map(|conflict| {
             let [face, other] = conflict.facets.map(|facet| faces.nearest(facet, Point::from(conflict.point)));
-            Violation::SelfOverlap { face, other }
+            let is_one = conflict.facets[0] == conflict.facets[1];
+            if is_one { Violation::FoldedFacet { face } } else { Violation::SelfOverlap { face, other } }
         });
         let inward = self.inward.iter().map(|&facet| Violation::InsideOut { face: faces.first(facet) });
         meet.chain(inward).collect()
@@ -136,5 +137,24 @@ mod tests {
         assert_eq!(pairs.len(), all.len());
         // The four sides of each bar along Y cross the two sides of each bar along X.
         assert!(pairs.len() >= 4 * 4 * 4, "{}", pairs.len());
+    }
+
+    #[test]
+    fn a_facet_that_is_folded_is_named_by_itself() {
+        // The left leg of a U, made so wide that it reaches through the right one.
+        let legs = [([0, 0, 0], [1, 3, 1]), ([1, 0, 0], [2, 1, 1]), ([2, 0, 0], [3, 3, 1])];
+        let boxes = legs.map(|(low, high)| Cuboid::new(low, high));
+        let mesh = Voxels::from_boxes(&boxes).unwrap().mesh(CellKind::Quads, 1e9).unwrap();
+        let labels: Vec<i8> =
+            Polycube::new(&mesh, None, &Tolerance::default()).unwrap().labels().map(|l| l.index() as i8).collect();
+        let widened = |p: &Point| if p.x == 1.0 && p.y >= 1.0 { Point::new(2.5, p.y, p.z) } else { *p };
+        let mesh = mesh.clone().with_points(mesh.points().iter().map(widened).collect()).unwrap();
+        let polycube = Polycube::new(&mesh, Some(&labels), &Tolerance::default()).unwrap();
+        let folded = polycube.overlaps(mesh.points()).into_iter().filter_map(|violation| match violation {
+            Violation::FoldedFacet { face } => Some(labels[face as usize]),
+            _ => None,
+        });
+        // Its front, its back, and the floor between the legs, whose border now goes round the wrong way.
+        assert_eq!(folded.collect::<BTreeSet<i8>>(), BTreeSet::from([2, 4, 5]));
     }
 }

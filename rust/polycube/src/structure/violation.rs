@@ -109,6 +109,11 @@ pub enum Violation {
         /// A face of the second part.
         other: u32,
     },
+    /// A facet whose border touches or crosses itself, or goes round the wrong way.
+    FoldedFacet {
+        /// The face of it that is nearest to where it does.
+        face: u32,
+    },
     /// The surface looks inward.
     InsideOut {
         /// A face of the component.
@@ -140,6 +145,7 @@ impl Violation {
             | Self::TooFewCorners { face, .. }
             | Self::ChartWithHandle { face }
             | Self::SelfOverlap { face, .. }
+            | Self::FoldedFacet { face }
             | Self::InsideOut { face } => Place::Face(face),
             Self::OpenEdge { edge }
             | Self::NonManifoldEdge { edge }
@@ -170,6 +176,7 @@ impl Violation {
             Self::NonMonotoneEdge { .. } => "non_monotone_edge",
             Self::OffLevel { .. } => "off_level",
             Self::SelfOverlap { .. } => "self_overlap",
+            Self::FoldedFacet { .. } => "folded_facet",
             Self::InsideOut { .. } => "inside_out",
             Self::CrowdedCell { .. } => "crowded_cell",
             Self::InvertedCell { .. } => "inverted_cell",
@@ -204,6 +211,9 @@ impl Violation {
                 format!("the vertex lies {distance:.3} off the plane of its chart, beyond the tolerance")
             }
             Self::SelfOverlap { other, .. } => format!("the surface touches or crosses itself: face {other} meets it"),
+            Self::FoldedFacet { .. } => {
+                "the facet of this face is folded: its border crosses itself or goes round the wrong way".into()
+            }
             Self::InsideOut { .. } => "this part of the surface looks inward".into(),
             Self::CrowdedCell { .. } => "a face of the cell belongs to more than two cells".into(),
             Self::InvertedCell { .. } => "the cell is inverted or flat".into(),
@@ -229,6 +239,7 @@ impl Violation {
             Self::NonMonotoneEdge { .. } => "unfold the border between the two charts, or raise the level tolerance",
             Self::OffLevel { .. } => "flatten the facet, or raise the level tolerance",
             Self::SelfOverlap { .. } => "move the two parts apart",
+            Self::FoldedFacet { .. } => "pull the edges of the facet apart there",
             Self::InsideOut { .. } => "flip its faces",
             Self::CrowdedCell { .. } => "remove duplicate or overlapping cells",
             Self::InvertedCell { .. } => "untangle the polycube map; it is not injective here",

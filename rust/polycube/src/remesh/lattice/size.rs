@@ -23,6 +23,9 @@ pub enum Size {
 /// No mesh has more hexahedra, padding included: 32-bit numbers count their corners.
 pub(crate) const MOST_HEXES: usize = (u32::MAX / 8) as usize;
 
+/// More hexahedra, padding included, are made only where their number was asked for.
+const MOST_UNASKED: u64 = 1_000_000;
+
 impl Size {
     /// Refuses what no mesh can have.
     ///
@@ -45,13 +48,23 @@ fn too_many(count: u64) -> Error {
     too_fine(&format!("{count} hexahedra are more than this program can index, {MOST_HEXES}"))
 }
 
-/// Refuses levels whose lattice has more hexahedra than [`MOST_HEXES`], before anything is made of them.
+/// Refuses levels whose lattice has more hexahedra than [`MOST_HEXES`], or than [`MOST_UNASKED`] unless these were
+/// `asked_for`, before anything is made of them.
 ///
 /// # Errors
 /// [`ErrorKind::Option`].
-pub(crate) fn check_count(simplified: &Simplified, padding: usize) -> Result<()> {
+pub(crate) fn check_count(simplified: &Simplified, padding: usize, asked_for: bool) -> Result<()> {
     let count = count_hexes(&simplified.input.structure, &simplified.levels, padding);
-    if count <= MOST_HEXES as u64 { Ok(()) } else { Err(too_many(count)) }
+    if count > MOST_HEXES as u64 {
+        return Err(too_many(count));
+    }
+    if asked_for || count <= MOST_UNASKED {
+        return Ok(());
+    }
+    let message = format!("this lattice has {count} hexahedra, which takes minutes or more");
+    Err(Error::new(ErrorKind::Option, message).in_option("size").remedy(format!(
+        "ask for a longer edge length or a smaller scale; or for so many by their number, hexes = {count}"
+    )))
 }
 
 /// A count within this part of the wanted one ends the search.

@@ -9,7 +9,7 @@ use crate::context::Context;
 use crate::error::Result;
 use crate::mesh::Mesh;
 use crate::remesh::fit::Aim;
-use crate::remesh::lattice::{check_count, scale_for};
+use crate::remesh::lattice::{Size, check_count, scale_for};
 use crate::remesh::map::{LatticeMap, LevelInterpolation, Refined, untangle_surface};
 use crate::remesh::options::RemeshOptions;
 use crate::simplify::{Input, Note, Simplified};
@@ -76,7 +76,8 @@ impl Candidate {
 /// The simplified polycube at the wanted size, which can be meshed.
 fn sized(input: &Input, found: Simplified, options: &RemeshOptions, context: &Context) -> Result<Simplified> {
     let result = placed(input, found, options, context)?;
-    check_count(&result, if options.surface_only { 0 } else { options.padding })?;
+    let padding = if options.surface_only { 0 } else { options.padding };
+    check_count(&result, padding, options.surface_only || matches!(options.size, Some(Size::Hexes(_))))?;
     Ok(result)
 }
 

@@ -51,6 +51,18 @@ fn examples_of_all_kinds_become_good_hexahedra() {
     }
 }
 
+/// Before any work is done on them.
+#[test]
+fn more_than_a_million_hexahedra_must_be_asked_for() {
+    let (polycube, shape) = example(Example::SteppedL, 1, CellKind::Triangles).unwrap();
+    let input = Input { polycube: &polycube, shape: Some(&shape), labels: None };
+    let fine = RemeshOptions { size: Some(Size::Scale(16.0)), ..options(Strategy::Paper, 0) };
+    let error = remesh(&input, &fine, &Context::default()).unwrap_err();
+    assert_eq!((error.kind, error.option), (ErrorKind::Option, Some("size")));
+    let count: usize = error.remedy.rsplit(' ').next().unwrap().parse().unwrap();
+    assert!(count > 1_000_000 && error.message.contains(&count.to_string()), "{error}");
+}
+
 #[test]
 fn the_unsimplified_polycube_is_meshed_even_where_rounding_breaks_it() {
     let pair = example(Example::SteppedL, 1, CellKind::Triangles).unwrap();

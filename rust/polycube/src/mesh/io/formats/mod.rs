@@ -16,6 +16,7 @@ use super::format::Format;
 use super::soup::Soup;
 use crate::error::Result;
 use crate::mesh::Mesh;
+use std::borrow::Cow;
 
 /// What the bytes of a file hold.
 pub(super) fn read(format: Format, bytes: &[u8]) -> Result<Soup> {
@@ -31,18 +32,29 @@ pub(super) fn read_tagged(format: Format, bytes: &[u8]) -> Result<Soup> {
 /// beside the faces.
 fn read_as(format: Format, bytes: &[u8], tagged: bool) -> Result<Soup> {
     match format {
-        Format::Obj => obj::read(bytes),
-        Format::Off => off::read(bytes),
+        Format::Obj => obj::read(&with_line_feeds(bytes)),
+        Format::Off => off::read(&with_line_feeds(bytes)),
         Format::Ply => ply::read(bytes),
         Format::Stl => stl::read(bytes),
-        Format::Medit => medit::read(bytes),
+        Format::Medit => medit::read(&with_line_feeds(bytes)),
         Format::Vtk => legacy::read(bytes, tagged),
         Format::Vtu => vtu::read(bytes, tagged),
         Format::Vtp => vtp::read(bytes, tagged),
         Format::Msh => gmsh::read(bytes),
-        Format::Inp => abaqus::read(bytes),
+        Format::Inp => abaqus::read(&with_line_feeds(bytes)),
         Format::Meshb => meshb::read(bytes),
     }
+}
+
+/// Text whose lines end with a carriage return alone, as old programs wrote it, with line feeds in their place; other
+/// text as it is.
+fn with_line_feeds(text: &[u8]) -> Cow<'_, [u8]> {
+    let end = text.iter().position(|&b| b == b'\r' || b == b'\n');
+    let is_old = end.is_some_and(|end| text[end] == b'\r' && text.get(end + 1) != Some(&b'\n'));
+    if !is_old {
+        return Cow::Borrowed(text);
+    }
+    text.iter().map(|&b| if b == b'\r' { b'\n' } else { b }).collect::<Vec<u8>>().into()
 }
 
 /// The bytes of a file; the format must be able to hold the mesh.

@@ -37,8 +37,11 @@ pub(super) fn read(bytes: &[u8]) -> Result<Soup> {
     Ok(soup)
 }
 
-/// Reads the keyword; true for the one that lets only positions follow.
+/// Reads the keyword, which some programs leave out; true for the one that lets only positions follow.
 fn header(scanner: &mut Scanner) -> Result<bool> {
+    if scanner.peek().is_some_and(|word| word.iter().all(u8::is_ascii_digit)) {
+        return Ok(true);
+    }
     let word = scanner.expect("OFF")?;
     let prefix = word.strip_suffix(b"OFF");
     let prefix = prefix.ok_or_else(|| scanner.unexpected("OFF", word))?;

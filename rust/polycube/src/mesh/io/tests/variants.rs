@@ -27,6 +27,16 @@ fn obj_in_all_its_forms() {
 }
 
 #[test]
+fn lines_may_end_with_a_carriage_return_alone() {
+    let obj = "# a comment\rv 0 0 0\rv 1 0 0\rv 0 1 0\rusemtl 7\rf 1 2 3\r";
+    assert_eq!(triangles(&parse(Format::Obj, obj)), [[0, 1, 2]]);
+    let inp = "** a comment\r*NODE\r1, 0, 0, 0\r2, 1, 0, 0\r3, 0, 1, 0\r*ELEMENT, TYPE=S3\r1, 1, 2, 3\r";
+    assert_eq!(triangles(&parse(Format::Inp, inp)), [[0, 1, 2]]);
+    let error = read_bytes(Format::Obj, b"v 0 0 0\r\rv 1 x 0\r").unwrap_err();
+    assert_eq!(error.place, Some(Place::Line(3)));
+}
+
+#[test]
 fn obj_faces_may_come_first() {
     let mesh = parse(Format::Obj, "f 1 2 3\nv 0 0 0\nv 1 0 0\nv 0 1 0");
     assert_eq!(triangles(&mesh), [[0, 1, 2]]);
@@ -48,6 +58,10 @@ fn off_in_all_its_forms() {
             let mesh = parse(Format::Off, &format!("{head}{body}{face}"));
             assert_eq!(triangles(&mesh), [[0, 1, 2]]);
         }
+    }
+    // Some programs leave the keyword out, and some end lines as they once were ended.
+    for text in [format!("3 1 0\n{body}3 0 1 2\n"), format!("OFF\r3 1 0\r{}3 0 1 2 9\r", body.replace('\n', "\r"))] {
+        assert_eq!(triangles(&parse(Format::Off, &text)), [[0, 1, 2]]);
     }
     let text = "COFF\n3 1 0\n0 0 0 255 0 0 255\n1 0 0 1 1 1 1\n0 1 0 0 0 0 0\n3 0 1 2";
     assert_eq!(parse(Format::Off, text).points()[2], Point::new(0.0, 1.0, 0.0));
