@@ -37,6 +37,8 @@ class POLYCUBE_OT_make(jobs.JobOperator, settings.MakeOptions, bpy.types.Operato
         choice.source, choice.shape, choice.key = 'KEY', obj, KEY
         report = made.report
         self.report({'INFO'}, f"A polycube with {report['corners']} corners and {report['facets']} facets")
+        for repair in report["repairs"]:
+            self.report({'WARNING'}, repair)
 
     def draw(self, _context):
         self.layout.prop(self, "detail", slider=True)

@@ -9,13 +9,14 @@ namespace internal {
 
 bridge::MakeOptionsData options(const MakeOptions& options) {
     bridge::MakeOptionsData data = {options.detail, options.corners.has_value(), options.corners.value_or(0),
-                                    options.axes == Axes::best, options.labels.has_value(), {}};
+                                    options.axes == Axes::best, options.labels.has_value(), {}, options.no_repair};
     if (options.labels) std::copy(options.labels->begin(), options.labels->end(), std::back_inserter(data.labels));
     return data;
 }
 
 Made made(const bridge::MadeData& data) {
     MakeReport report;
+    report.repairs = strings(data.repairs);
     report.corners = data.corners;
     report.edges = data.edges;
     report.facets = data.facets;

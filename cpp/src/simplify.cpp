@@ -85,6 +85,7 @@ bridge::OptionsData options(const Options& options) {
     data.simplicity = real(options.simplicity);
     data.max_displacement = real(options.max_displacement);
     data.max_distortion = real(options.max_distortion);
+    data.no_repair = options.no_repair;
     data.tolerance = tolerance(options.tolerance);
     data.guides = guides(options.guides);
     return data;

@@ -58,6 +58,20 @@ TEST_CASE("the defaults of making are those of the core") {
     CHECK(core.has_corners == own.corners.has_value());
     CHECK(core.best_axes == (own.axes == polycube::Axes::best));
     CHECK(core.has_labels == own.labels.has_value());
+    CHECK(core.no_repair == own.no_repair);
+}
+
+TEST_CASE("a shape that looks inward is turned, and that is told, unless it is to be taken as it is") {
+    Mesh inward = torus();
+    for (std::size_t i = 0; i < inward.cells.size(); i += 3) std::swap(inward.cells[i], inward.cells[i + 1]);
+    const Made turned = polycube::make(inward);
+    REQUIRE(turned.report.repairs.size() == 1);
+    CHECK(turned.report.repairs[0].find("turned to look outward") != std::string::npos);
+    CHECK(turned.polycube.points == made().polycube.points);
+    CHECK(made().report.repairs.empty());
+    polycube::MakeOptions strict;
+    strict.no_repair = true;
+    CHECK_THROWS_WITH_AS(polycube::make(inward, strict), doctest::Contains("looks inward"), polycube::Error);
 }
 
 TEST_CASE("a polycube is made of a torus") {

@@ -34,6 +34,7 @@ TEST_CASE("the defaults are those of the core") {
         CHECK(ours.has_objective == theirs.has_objective);
         CHECK(ours.steps_per_level == theirs.steps_per_level);
         CHECK(ours.proof_nodes == theirs.proof_nodes);
+        CHECK(ours.no_repair == theirs.no_repair);
         CHECK(ours.tolerance.degrees == theirs.tolerance.degrees);
         CHECK(ours.tolerance.distance == theirs.tolerance.distance);
         CHECK(ours.tolerance.merge == theirs.tolerance.merge);

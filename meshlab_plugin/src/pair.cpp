@@ -158,10 +158,15 @@ Meshed remesh(const Call& call, const PairLayers& layers, const polycube::filter
         const bool none = error.kind() == polycube::ErrorKind::mesh || error.kind() == polycube::ErrorKind::polycube;
         if (layers.shape != nullptr || !none) throw;
     }
-    check_surface(polycube::filter::inspect(pair, settings, call.context).checked.violations);
     if (!pair.locked_faces.empty())
         call.log("warning: no face is locked, as the polycube is yet to be made of the layer");
-    return {polycube::filter::remesh({{}, std::move(pair.polycube), {}, {}}, settings, call.context), 0};
+    try {
+        return {polycube::filter::remesh({{}, pair.polycube, {}, {}}, settings, call.context), 0};
+    } catch (const polycube::Error& error) {
+        if (error.kind() == polycube::ErrorKind::mesh)
+            check_surface(polycube::filter::inspect(pair, settings, call.context).checked.violations);
+        throw;
+    }
 }
 
 void add_counts(const polycube::Report& report, host::Values& values) {

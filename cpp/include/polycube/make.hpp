@@ -27,10 +27,14 @@ struct MakeOptions {
     /// One label for each face of the shape, 0 to 5 for +X -X +Y -Y +Z -Z, as programs that label shapes leave them.
     /// Their charts become the facets as they are; `detail`, `corners` and `axes` then have no effect.
     std::optional<std::vector<std::int8_t>> labels;
+    /// Take the shape as it is. Else what has one right answer is repaired and told in `MakeReport::repairs`: faces and
+    /// labels that look inward, vertices at one place, faces that are double or inside.
+    bool no_repair = false;
 };
 
 /// What was made and how good it is. `Made::report_json` has all of it and more.
 struct MakeReport {
+    std::vector<std::string> repairs;  ///< What of the shape was repaired first, as sentences; mostly nothing.
     std::uint64_t corners = 0;  ///< Corners of the polycube.
     std::uint64_t edges = 0;    ///< Its edges.
     std::uint64_t facets = 0;   ///< Its facets.

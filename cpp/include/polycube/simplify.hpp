@@ -95,6 +95,10 @@ struct Options {
     /// The largest mean angle distortion of the map from the shape to the result of `Strategy::best` to accept, at
     /// least 1: of the front, the point with the fewest blocks that keeps it is taken.
     std::optional<double> max_distortion;
+    /// Take the input as it is. Else what has one right answer is repaired and told in `Report::notes`: cells that are
+    /// numbered left-handed, surfaces and labels that look inward, vertices at one place, faces that are double or
+    /// inside.
+    bool no_repair = false;
     Tolerance tolerance;
     Guides guides;
 };

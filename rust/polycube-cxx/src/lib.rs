@@ -115,6 +115,7 @@ mod ffi {
         simplicity: Real,
         max_displacement: Real,
         max_distortion: Real,
+        no_repair: bool,
         tolerance: ToleranceData,
         guides: GuidesData,
     }
@@ -126,6 +127,7 @@ mod ffi {
         best_axes: bool,
         has_labels: bool,
         labels: Vec<i8>,
+        no_repair: bool,
     }
 
     struct RemeshOptionsData {
@@ -211,6 +213,7 @@ mod ffi {
         polycube: MeshData,
         shape: MeshData,
         labels: Vec<i8>,
+        repairs: Vec<String>,
         corners: u64,
         edges: u64,
         facets: u64,

@@ -19,7 +19,8 @@ pub fn make_options(data: &MakeOptionsData) -> MakeOptions {
     // More corners than a usize holds are as many as there can be.
     let corners = data.has_corners.then(|| usize::try_from(data.corners).unwrap_or(usize::MAX));
     let axes = if data.best_axes { Axes::Best } else { Axes::Keep };
-    MakeOptions { detail: data.detail, corners, axes, labels: data.has_labels.then(|| data.labels.clone()) }
+    let labels = data.has_labels.then(|| data.labels.clone());
+    MakeOptions { detail: data.detail, corners, axes, labels, no_repair: data.no_repair }
 }
 
 /// What was made, as C++ sees it.
@@ -31,6 +32,7 @@ pub fn made(Made { shape, polycube, labels, report }: &Made) -> polycube::Result
         polycube: polycube.into(),
         shape: shape.into(),
         labels: labels.clone(),
+        repairs: report.repairs.iter().map(ToString::to_string).collect(),
         corners: report.corners as u64,
         edges: report.edges as u64,
         facets: report.facets as u64,
@@ -47,7 +49,7 @@ pub fn made(Made { shape, polycube, labels, report }: &Made) -> polycube::Result
 
 /// The defaults of the core, for C++ to compare its own with.
 pub fn default_make_options() -> MakeOptionsData {
-    let MakeOptions { detail, corners, axes, labels } = MakeOptions::default();
+    let MakeOptions { detail, corners, axes, labels, no_repair } = MakeOptions::default();
     MakeOptionsData {
         detail,
         has_corners: corners.is_some(),
@@ -55,5 +57,6 @@ pub fn default_make_options() -> MakeOptionsData {
         best_axes: axes == Axes::Best,
         has_labels: labels.is_some(),
         labels: labels.unwrap_or_default(),
+        no_repair,
     }
 }

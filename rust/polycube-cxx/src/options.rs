@@ -53,6 +53,7 @@ pub fn options(data: &OptionsData) -> Result<SimplifyOptions> {
         max_distortion: data.max_distortion.get(),
         guides: guides(&data.guides),
         tolerance: tolerance(&data.tolerance),
+        no_repair: data.no_repair,
         ..SimplifyOptions::default()
     })
 }
@@ -111,6 +112,7 @@ pub fn defaults(options: &SimplifyOptions) -> OptionsData {
         simplicity: options.simplicity.into(),
         max_displacement: options.max_displacement.into(),
         max_distortion: options.max_distortion.into(),
+        no_repair: options.no_repair,
         tolerance: options.tolerance.into(),
         guides: GuidesData {
             fixed: Vec::new(),

@@ -46,7 +46,7 @@ impl PyJob {
     #[staticmethod]
     #[pyo3(
         signature = (shape, **options),
-        text_signature = "(shape, *, detail=None, corners=None, axes=None, labels=None)"
+        text_signature = "(shape, *, detail=None, corners=None, axes=None, labels=None, no_repair=False)"
     )]
     fn make(py: Python<'_>, shape: &PyMesh, options: Option<&Bound<'_, PyDict>>) -> PyResult<Self> {
         Ok(Self(Kind::Make(work::start(py, made::task(py, shape, options)?)?)))
@@ -59,7 +59,7 @@ impl PyJob {
         text_signature = "(polycube, shape=None, *, labels=None, strategy='best', scale=None, edge_length=None, \
             objective=None, simplicity=1.0, max_displacement=None, max_distortion=None, locked_faces=None, \
             guides=None, steps=400, proof_nodes=200, time_limit=None, lambda_min=0.0, solver='exact', \
-            angle_tolerance=30.0, level_tolerance=0.05)"
+            angle_tolerance=30.0, level_tolerance=0.05, no_repair=False)"
     )]
     fn simplify(
         py: Python<'_>,
@@ -79,7 +79,7 @@ impl PyJob {
             objective=None, simplicity=None, max_displacement=None, max_distortion=None, locked_faces=None, \
             guides=None, steps=400, \
             proof_nodes=200, time_limit=None, lambda_min=0.0, solver='exact', angle_tolerance=30.0, \
-            level_tolerance=0.05)"
+            level_tolerance=0.05, no_repair=False)"
     )]
     fn remesh(
         py: Python<'_>,

@@ -112,6 +112,8 @@ impl PyMade {
 ///         not given; "best" for those that the surface looks along best, for a shape that lies askew.
 ///     labels: (f,) 0 to 5 for each face of the shape, as programs that label shapes leave them. Its charts become the
 ///         facets as they are, and detail, corners and axes have no effect.
+///     no_repair: take the shape as it is. Else what has one right answer is repaired, as in `simplify`, and
+///         `report["repairs"]` tells it.
 ///     progress, cancel: as in `simplify`.
 ///
 /// Raises:
@@ -132,7 +134,8 @@ impl PyMade {
 #[pyfunction]
 #[pyo3(
     signature = (shape, *, progress=None, cancel=None, **options),
-    text_signature = "(shape, *, detail=None, corners=None, axes=None, labels=None, progress=None, cancel=None)"
+    text_signature = "(shape, *, detail=None, corners=None, axes=None, labels=None, no_repair=False, \
+         progress=None, cancel=None)"
 )]
 pub fn make<'py>(
     py: Python<'py>,
@@ -152,7 +155,7 @@ pub fn task(
     options: Option<&Bound<'_, PyDict>>,
 ) -> PyResult<impl FnOnce(&Context) -> Result<PyMade, Failure> + Send + 'static> {
     let keywords = Keywords::new(py, "make", options)?;
-    let options = keywords.make()?;
+    let options = keywords.make(keywords.no_repair()?)?;
     keywords.finish()?;
     let shape = Arc::clone(&shape.0);
     Ok(move |context: &Context| run(&shape, &options, context).map(PyMade::from).map_err(|e| Failure::new(e, &shape)))

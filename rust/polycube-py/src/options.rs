@@ -108,16 +108,21 @@ impl<'py> Keywords<'py> {
         Ok(())
     }
 
-    /// Takes how a polycube is made of a shape.
-    pub fn make(&self) -> PyResult<MakeOptions> {
+    /// Takes whether the input is taken as it is.
+    pub fn no_repair(&self) -> PyResult<bool> {
+        Ok(self.take("no_repair")?.unwrap_or_default())
+    }
+
+    /// Takes how a polycube is made of a shape, all but whether that is repaired.
+    pub fn make(&self, no_repair: bool) -> PyResult<MakeOptions> {
         if let Some(labels) = self.labels()? {
             let reason = "the labels say which facets there are";
             self.refuse(&["detail", "corners", "axes"], reason, "leave it out, or the labels")?;
-            return Ok(MakeOptions { labels: Some(labels), ..MakeOptions::default() });
+            return Ok(MakeOptions { labels: Some(labels), no_repair, ..MakeOptions::default() });
         }
         let detail = self.take("detail")?.unwrap_or(MakeOptions::default().detail);
         let axes = self.word("axes", &[("keep", Axes::Keep), ("best", Axes::Best)])?.unwrap_or_default();
-        let options = MakeOptions { detail, corners: self.whole("corners")?, axes, labels: None };
+        let options = MakeOptions { detail, corners: self.whole("corners")?, axes, labels: None, no_repair };
         options.check().map_err(|e| errors::raise(self.py(), &e, None))?;
         Ok(options)
     }
@@ -180,6 +185,7 @@ impl<'py> Keywords<'py> {
             max_distortion: self.take("max_distortion")?,
             guides: self.guides()?,
             tolerance: self.tolerance()?,
+            no_repair: self.no_repair()?,
             ..SimplifyOptions::default()
         })
     }

@@ -131,12 +131,12 @@ enum Start {
 }
 
 impl Start {
-    fn new(shape: &PyMesh, polycube: Option<&PyMesh>, keywords: &Keywords<'_>) -> PyResult<Self> {
+    fn new(shape: &PyMesh, polycube: Option<&PyMesh>, no_repair: bool, keywords: &Keywords<'_>) -> PyResult<Self> {
         if let Some(polycube) = polycube {
             keywords.refuse(&["detail", "corners", "axes"], "a polycube is given", "leave it out, or the polycube")?;
             return Ok(Self::Pair(Source::new(polycube, Some(shape), keywords)?));
         }
-        Ok(Self::Shape(Arc::clone(&shape.0), keywords.make()?))
+        Ok(Self::Shape(Arc::clone(&shape.0), keywords.make(no_repair)?))
     }
 
     fn remesh(self, options: &RemeshOptions, context: &Context) -> Result<PyRemeshed, Failure> {
@@ -182,7 +182,8 @@ impl Start {
 ///     simplicity: only with "best", from 1, the fewest blocks, to 0, the least displacement. If neither this nor a
 ///         limit is given, the fewest blocks whose hexahedra are good.
 ///     strategy, objective, max_distortion, locked_faces, guides, steps, proof_nodes, time_limit, lambda_min, solver,
-///         angle_tolerance, level_tolerance, progress, cancel: as in `simplify`. "naive" meshes the polycube as it is.
+///         angle_tolerance, level_tolerance, no_repair, progress, cancel: as in `simplify`. "naive" meshes the polycube
+///         as it is.
 ///
 /// Raises:
 ///     InvalidMesh, InvalidPolycube, Mismatch, InvalidOption, Infeasible, Cancelled: as in `simplify`.
@@ -203,7 +204,7 @@ impl Start {
         objective=None, simplicity=None, max_displacement=None, max_distortion=None, locked_faces=None, \
         guides=None, steps=400, \
         proof_nodes=200, time_limit=None, lambda_min=0.0, solver='exact', angle_tolerance=30.0, \
-        level_tolerance=0.05, progress=None, cancel=None)"
+        level_tolerance=0.05, no_repair=False, progress=None, cancel=None)"
 )]
 pub fn remesh<'py>(
     py: Python<'py>,
@@ -225,8 +226,10 @@ pub fn task(
     options: Option<&Bound<'_, PyDict>>,
 ) -> PyResult<impl FnOnce(&Context) -> Result<PyRemeshed, Failure> + Send + 'static> {
     let keywords = Keywords::new(py, "remesh", options)?;
-    let start = Start::new(shape, polycube, &keywords)?;
-    let options = keywords.remesh()?;
+    let no_repair = keywords.no_repair()?;
+    let start = Start::new(shape, polycube, no_repair, &keywords)?;
+    let mut options = keywords.remesh()?;
+    options.simplify.no_repair = no_repair;
     keywords.finish()?;
     Ok(move |context: &Context| start.remesh(&options, context))
 }

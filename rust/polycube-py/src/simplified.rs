@@ -300,6 +300,8 @@ impl PySimplified {
 ///     solver: "exact" minimum cuts, or "linear" programs, which are slow.
 ///     angle_tolerance: largest angle between a face and the nearest axis, in degrees, 0 to 45.
 ///     level_tolerance: largest distance of a vertex from the plane of its facet, as a part of the diagonal, 0 to 1.
+///     no_repair: take the input as it is. Else what has one right answer is repaired, and a note says so: cells
+///         numbered left-handed, surfaces and labels that look inward, vertices at one place, double and inner faces.
 ///     progress: called on this thread now and then as `progress(stage, fraction)`, fraction from 0 to 1. What it
 ///         returns is not looked at; what it raises stops the work and is raised by this call.
 ///     cancel: an object with `is_set()`, such as a `threading.Event`; once it is set, `Cancelled` is raised.
@@ -321,7 +323,7 @@ impl PySimplified {
     text_signature = "(polycube, shape=None, *, labels=None, strategy='best', scale=None, edge_length=None, \
         objective=None, simplicity=1.0, max_displacement=None, max_distortion=None, locked_faces=None, \
         guides=None, steps=400, proof_nodes=200, time_limit=None, lambda_min=0.0, solver='exact', \
-        angle_tolerance=30.0, level_tolerance=0.05, progress=None, cancel=None)"
+        angle_tolerance=30.0, level_tolerance=0.05, no_repair=False, progress=None, cancel=None)"
 )]
 pub fn simplify<'py>(
     py: Python<'py>,

@@ -50,6 +50,25 @@ def test_fewer_corners(shape, made):
     assert repr(few) == f"Made({few.report['corners']} corners, {few.report['facets']} facets)"
 
 
+def test_what_looks_inward_is_turned_and_told(shape, made):
+    inward = polycube.Mesh(shape.points, shape.cells[:, ::-1])
+    found = polycube.make(inward)
+    assert len(found.report["repairs"]) == 1 and "turned to look outward" in found.report["repairs"][0]
+    assert made.report["repairs"] == [] and found.report["corners"] == made.report["corners"]
+    with pytest.raises(polycube.InvalidMesh, match="looks inward"):
+        polycube.make(inward, no_repair=True)
+    with pytest.raises(polycube.InvalidMesh, match="looks inward"):
+        polycube.remesh(inward, no_repair=True)
+
+
+def test_a_polycube_that_looks_inward_is_taken_as_it_is_where_that_is_asked_for():
+    shape, cube = polycube.example("stepped-l", kind="quads")
+    inward = [polycube.Mesh(mesh.points, mesh.cells[:, ::-1]) for mesh in (cube, shape)]
+    assert "repaired" in polycube.simplify(*inward, strategy="paper").notes[0]
+    with pytest.raises(polycube.Error):
+        polycube.simplify(*inward, strategy="paper", no_repair=True)
+
+
 def test_the_axes_of_the_surface_are_found():
     _, shape = polycube.example("stepped-l", kind="triangles")
     c, s = np.cos(0.5), np.sin(0.5)

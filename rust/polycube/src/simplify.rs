@@ -168,7 +168,7 @@ pub fn simplify(input: &Input, options: &SimplifyOptions, context: &Context) -> 
     let alignment = align::align(&polycube.structure, &polycube.placement, &options.alignment(scale), &aligning)?;
     let aligned = start.elapsed().as_secs_f64();
     let mut report = SimplifyReport::new(&polycube, &alignment, options.strategy, scale);
-    report.note_repairs(repaired.as_ref());
+    report.note_repairs(Repaired::repairs(&repaired));
     if options.strategy == Strategy::Best && alignment.bound.is_none() {
         report.notes.push(Note::Unsearched);
     }

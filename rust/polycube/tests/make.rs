@@ -8,6 +8,8 @@ use polycube::generate::{Cuboid, Example, Voxels, example, random_polycube};
 use polycube::make::{self, Axes, Made, MakeOptions, make};
 use polycube::mesh::{CellKind, Cells, Mesh, Point, Simplices, read, write_bytes};
 use polycube::remesh::{RemeshOptions, Size, Stages};
+use polycube::repair::Repair;
+use polycube::simplify::Note;
 use polycube::structure::{Polycube, Tolerance};
 use polycube::{Context, ErrorKind, Place};
 use std::path::PathBuf;
@@ -230,13 +232,60 @@ fn what_is_no_closed_surface_is_refused_with_its_place() {
     let all = triangles(&shape);
     let open = Mesh::new(shape.points().to_vec(), Cells::Triangles(all[1..].to_vec())).unwrap();
     assert!(matches!(refused(&open).place, Some(Place::Edge(..))));
-    let inward = all.iter().map(|t| [t[0], t[2], t[1]]).collect();
-    let inward = Mesh::new(shape.points().to_vec(), Cells::Triangles(inward)).unwrap();
-    assert_eq!(refused(&inward).kind, ErrorKind::Mesh);
     let (_, volume) = example(Example::SteppedL, 1, CellKind::Tetrahedra).unwrap();
     assert_eq!(refused(&volume).kind, ErrorKind::Unsupported);
     let options = MakeOptions { detail: f64::NAN, ..MakeOptions::default() };
     assert_eq!(make(&shape, &options, &Context::default()).unwrap_err().option, Some("detail"));
+}
+
+/// An L, whose creases are those of a polycube.
+fn ell() -> Mesh {
+    let boxes = [Cuboid::new([0; 3], [4, 2, 2]), Cuboid::new([0; 3], [2, 4, 2])];
+    Voxels::from_boxes(&boxes).unwrap().mesh(CellKind::Triangles, 1.0).unwrap()
+}
+
+#[test]
+fn what_has_one_right_answer_is_repaired_and_told() {
+    let shape = ell();
+    let all = triangles(&shape);
+    let right = made(&shape, "ell");
+    assert!(right.report.repairs.is_empty());
+
+    let turned = all.iter().map(|t| [t[0], t[2], t[1]]).collect();
+    let inward = Mesh::new(shape.points().to_vec(), Cells::Triangles(turned)).unwrap();
+    let found = made(&inward, "inward");
+    assert_eq!(found.report.repairs, [Repair::TurnedFaces(all.len())]);
+    assert!(found.labels == right.labels && found.polycube.points() == right.polycube.points());
+    let strict = MakeOptions { no_repair: true, ..MakeOptions::default() };
+    assert_eq!(make(&inward, &strict, &Context::default()).unwrap_err().kind, ErrorKind::Mesh);
+
+    // As STL has it: three vertices for every triangle.
+    let points: Vec<Point> = all.iter().flatten().map(|&v| shape.points()[v as usize]).collect();
+    let apart = (0..all.len() as u32).map(|t| [3 * t, 3 * t + 1, 3 * t + 2]).collect();
+    let soup = Mesh::new(points, Cells::Triangles(apart)).unwrap();
+    let found = made(&soup, "soup");
+    assert_eq!(found.report.repairs, [Repair::Welded(soup.points().len() - shape.points().len())]);
+    assert_eq!(found.report.corners, right.report.corners);
+    assert_eq!(&found.shape.points()[..soup.points().len()], soup.points());
+    assert!(make(&soup, &strict, &Context::default()).is_err());
+
+    // Labels turn with faces that they went with.
+    let labels: Vec<i8> = right.labels.iter().map(|label| label ^ 1).collect();
+    let turned = triangles(&right.shape).iter().map(|t| [t[0], t[2], t[1]]).collect();
+    let inward = Mesh::new(right.shape.points().to_vec(), Cells::Triangles(turned)).unwrap();
+    let [found, again] = [(&inward, &labels), (&right.shape, &right.labels)].map(|(s, l)| labelled(s, l).unwrap());
+    assert_eq!(found.report.repairs.len(), 2);
+    assert!(found.labels == again.labels && found.polycube.points() == again.polycube.points());
+}
+
+#[test]
+fn repairs_are_notes_of_the_mesh_of_a_shape_alone() {
+    let shape = ell();
+    let turned = triangles(&shape).iter().map(|t| [t[0], t[2], t[1]]).collect();
+    let inward = Mesh::new(shape.points().to_vec(), Cells::Triangles(turned)).unwrap();
+    let options = RemeshOptions { size: Some(Size::Hexes(400)), ..RemeshOptions::default() };
+    let (made, meshes) = make::remesh(&inward, &MakeOptions::default(), &options, &Context::default()).unwrap();
+    assert_eq!(meshes.report.simplify.notes[0], Note::Repaired(made.report.repairs[0]));
 }
 
 /// The polycube of a labelled shape.

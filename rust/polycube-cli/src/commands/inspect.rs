@@ -80,7 +80,7 @@ pub fn run(args: &Args) -> Result<ExitCode> {
     let file = &args.mesh.polycube;
     let meshes = MeshFiles::read(file, None, args.mesh.labels.given())?;
     let given = meshes.input();
-    let repaired = if args.mesh.tolerance.no_repair { None } else { repair(&given) };
+    let repaired = if args.mesh.tolerance.repair.off { None } else { repair(&given) };
     let input = repaired.as_ref().map_or(given, Repaired::input);
     let polycube = read_structure(&input, &args.mesh.tolerance.get()).map_err(Failure::in_file(file))?;
     let mut found = Found::new(file.display().to_string(), input.polycube, &polycube);

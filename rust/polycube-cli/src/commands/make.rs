@@ -4,7 +4,7 @@ use crate::failure::{Failure, INFERIOR, Result};
 use crate::input::meshes::MeshFiles;
 use crate::options::format::format;
 use crate::options::make::MakeArgs;
-use crate::options::polycube::LabelsArg;
+use crate::options::polycube::{LabelsArg, RepairArg};
 use crate::options::run::{FolderArg, QuietArg};
 use crate::output::folder::{LABELS, Output, REPORT};
 use crate::output::progress::Progress;
@@ -23,7 +23,8 @@ In the output folder:
                   of SHAPE come first and keep their numbers
   polycube.EXT    the polycube, vertex by vertex and triangle by triangle that of shape.EXT
   polycube.labels the label of each of its faces, one a line, for --labels
-  report.json     corners, edges, facets, genus, misfit, squashed, distortion, added vertices, times
+  report.json     repairs, corners, edges, facets, genus, misfit, squashed, distortion, added vertices,
+                  times
 They appear together when all is done, or not at all. Then
   polycube remesh out/shape.EXT --polycube out/polycube.EXT --labels out/polycube.labels -o mesh
 meshes the shape. SHAPE is a closed surface of triangles or quadrilaterals, of any genus and any
@@ -58,6 +59,10 @@ pub struct Args {
     #[command(flatten)]
     pub labels: LabelsArg,
 
+    /// Whether the shape is repaired.
+    #[command(flatten)]
+    pub repair: RepairArg,
+
     /// Format of shape and polycube: obj, off, ply, stl, mesh, meshb, vtk, vtu, vtp, msh or inp
     /// [default: as the input]
     #[arg(long, value_name = "EXT", value_parser = format)]
@@ -75,8 +80,9 @@ pub fn run(args: &Args) -> Result<ExitCode> {
     drop(progress);
     let report = &made.report;
     if !args.quiet.on {
+        let notes: String = report.repairs.iter().map(|repair| format!("note: {repair}\n")).collect();
         terminal::print(&format!(
-            "{} corners, {} edges, {} facets, genus {}; {} vertices added; {:.2} s\nwritten to {}\n",
+            "{notes}{} corners, {} edges, {} facets, genus {}; {} vertices added; {:.2} s\nwritten to {}\n",
             report.corners,
             report.edges,
             report.facets,
@@ -102,7 +108,7 @@ fn work(args: &Args, context: &Context) -> Result<Made> {
         return Err(Error::new(ErrorKind::Option, format!("a .{format} file cannot hold triangles")).into());
     }
     let middle = context.stage("make", 0.05, 0.95);
-    let made = make(&shape, &args.make.get(labels), &middle).map_err(Failure::in_file(&args.shape))?;
+    let made = make(&shape, &args.make.get(labels, args.repair), &middle).map_err(Failure::in_file(&args.shape))?;
     write(args, &made, format, &context.stage("write", 0.95, 1.0))?;
     Ok(made)
 }
@@ -119,7 +125,7 @@ fn write(args: &Args, made: &Made, format: Format, context: &Context) -> Result<
     let run = MakeRun {
         input: &name(&args.shape),
         labels: args.labels.file.as_ref().map(name),
-        options: args.labels.file.is_none().then(|| args.make.get(None)),
+        options: args.labels.file.is_none().then(|| args.make.get(None, args.repair)),
         report: &made.report,
     };
     output.add(REPORT, terminal::to_json(&run)?.as_bytes())?;

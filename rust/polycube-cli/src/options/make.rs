@@ -1,6 +1,7 @@
 //! How a polycube is made of a shape.
 
 use super::number::{fraction, whole};
+use super::polycube::RepairArg;
 use clap::Args;
 use clap::builder::PossibleValue;
 use polycube::make::{Axes, MakeOptions};
@@ -41,7 +42,8 @@ impl clap::ValueEnum for AxesArg {
 
 impl MakeArgs {
     /// What the library takes, with the labels of the shape if it has any.
-    pub fn get(self, labels: Option<Vec<i8>>) -> MakeOptions {
-        MakeOptions { detail: self.detail, corners: self.corners, axes: self.axes.0, labels }
+    pub fn get(self, labels: Option<Vec<i8>>, repair: RepairArg) -> MakeOptions {
+        let Self { detail, corners, axes } = self;
+        MakeOptions { detail, corners, axes: axes.0, labels, no_repair: repair.off }
     }
 }

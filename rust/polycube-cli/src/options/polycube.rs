@@ -66,10 +66,18 @@ pub struct ToleranceArgs {
     #[arg(long, value_name = "F", value_parser = fraction)]
     pub level_tolerance: Option<f64>,
 
+    /// Whether it is repaired.
+    #[command(flatten)]
+    pub repair: RepairArg,
+}
+
+/// Whether the input is repaired.
+#[derive(Args, Clone, Copy, Debug, Default)]
+pub struct RepairArg {
     /// Take the input as it is. Else what has one right answer is repaired, and a note says so: cells numbered
     /// left-handed, surfaces and labels that look inward, vertices at one place, faces that are double or inside
-    #[arg(long)]
-    pub no_repair: bool,
+    #[arg(long = "no-repair", id = "no_repair")]
+    pub off: bool,
 }
 
 impl ToleranceArgs {

@@ -2,7 +2,7 @@
 
 use super::Sandbox;
 use polycube::generate::{Example, example};
-use polycube::mesh::{self, CellKind};
+use polycube::mesh::{self, CellKind, Cells};
 use polycube::structure::{Polycube, Tolerance};
 use serde_json::json;
 
@@ -26,6 +26,21 @@ fn what_is_made_is_valid_and_can_be_meshed() {
     let report = sandbox.json("out/report.json");
     assert_eq!((report["genus"].as_u64(), &report["folded"]), (Some(1), &json!([])));
     sandbox.ok("simplify out/polycube.obj --labels out/polycube.labels --shape out/shape.obj -o simple -q");
+}
+
+#[test]
+fn a_shape_that_looks_inward_is_turned_unless_it_is_to_be_taken_as_it_is() {
+    let sandbox = Sandbox::new();
+    let (_, shape) = example(Example::Ring, 1, CellKind::Triangles).unwrap();
+    let inward = shape.edited(|_, cells| {
+        if let Cells::Triangles(all) = cells {
+            all.iter_mut().for_each(|t| t.swap(0, 1));
+        }
+    });
+    sandbox.write_mesh("inward.obj", &inward.unwrap());
+    assert!(sandbox.ok("make inward.obj -o out").contains("note: repaired: "));
+    assert!(sandbox.json("out/report.json")["repairs"][0].as_str().unwrap().contains("turned to look outward"));
+    sandbox.fails("make inward.obj -o no --no-repair", 3, &["looks inward", "remedy: "]);
 }
 
 #[test]

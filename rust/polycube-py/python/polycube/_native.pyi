@@ -311,6 +311,7 @@ class Job(Generic[_T_co]):
         corners: int | None = None,
         axes: _Axes | None = None,
         labels: npt.ArrayLike | None = None,
+        no_repair: bool = False,
     ) -> Job[Made]: ...
     @staticmethod
     def simplify(
@@ -334,6 +335,7 @@ class Job(Generic[_T_co]):
         solver: _Solver = "exact",
         angle_tolerance: float = 30.0,
         level_tolerance: float = 0.05,
+        no_repair: bool = False,
     ) -> Job[Simplified]: ...
     @staticmethod
     def remesh(
@@ -364,6 +366,7 @@ class Job(Generic[_T_co]):
         solver: _Solver = "exact",
         angle_tolerance: float = 30.0,
         level_tolerance: float = 0.05,
+        no_repair: bool = False,
     ) -> Job[Remeshed]: ...
     @property
     def progress(self) -> tuple[str, float]: ...
@@ -404,6 +407,7 @@ def make(
     corners: int | None = None,
     axes: _Axes | None = None,
     labels: npt.ArrayLike | None = None,
+    no_repair: bool = False,
     progress: _Progress | None = None,
     cancel: _Flag | None = None,
 ) -> Made: ...
@@ -428,6 +432,7 @@ def simplify(
     solver: _Solver = "exact",
     angle_tolerance: float = 30.0,
     level_tolerance: float = 0.05,
+    no_repair: bool = False,
     progress: _Progress | None = None,
     cancel: _Flag | None = None,
 ) -> Simplified: ...
@@ -459,6 +464,7 @@ def remesh(
     solver: _Solver = "exact",
     angle_tolerance: float = 30.0,
     level_tolerance: float = 0.05,
+    no_repair: bool = False,
     progress: _Progress | None = None,
     cancel: _Flag | None = None,
 ) -> Remeshed: ...

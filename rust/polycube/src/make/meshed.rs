@@ -45,6 +45,9 @@ pub fn remesh(
     let made = make(shape, making, &context.stage("make", 0.0, MAKING))?;
     let meshes = remesh::remesh(&made.input(), options, &context.stage("remesh", MAKING, 1.0));
     let mut meshes = meshes.map_err(|error| Error { place: None, ..error })?;
+    for report in [&mut meshes.simplified.report, &mut meshes.report.simplify] {
+        report.note_repairs(&made.report.repairs);
+    }
     meshes.report.set_seconds(meshes.report.seconds.total + made.report.seconds.total);
     Ok((made, meshes))
 }

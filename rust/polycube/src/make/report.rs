@@ -4,6 +4,7 @@ use super::embedding::Embedded;
 use super::loops::along;
 use crate::measure::{Distortion, distortion};
 use crate::mesh::{Cells, Face, Mesh, Point};
+use crate::repair::Repair;
 use crate::structure::area_vector;
 
 /// Wall-clock seconds of the stages.
@@ -20,6 +21,8 @@ pub struct MakeSeconds {
 /// What was made, and how good it is.
 #[derive(Clone, Debug, PartialEq, serde::Serialize, bitcode::Encode, bitcode::Decode)]
 pub struct MakeReport {
+    /// What of the shape was repaired first, in the order in which it was; mostly nothing.
+    pub repairs: Vec<Repair>,
     /// Corners of the polycube.
     pub corners: usize,
     /// Its edges.
@@ -51,6 +54,7 @@ impl MakeReport {
     pub(super) fn new(input: &Mesh, embedded: &Embedded, [polycube, shape]: [&Mesh; 2], seconds: MakeSeconds) -> Self {
         let structure = &embedded.polycube.structure;
         Self {
+            repairs: Vec::new(),
             corners: structure.corners.len(),
             edges: structure.edges.len(),
             facets: structure.facets.len(),

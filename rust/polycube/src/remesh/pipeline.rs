@@ -81,7 +81,7 @@ pub fn remesh(input: &Input, options: &RemeshOptions, context: &Context) -> Resu
     simplified.report.seconds = spent;
     let shape = input.shape.unwrap_or(input.polycube);
     untangle_volume(&mut simplified, input, &context.stage("map", 0.9, 0.95))?;
-    simplified.report.note_repairs(repaired.as_ref());
+    simplified.report.note_repairs(Repaired::repairs(&repaired));
     let measured = measure(&simplified, &meshed, shape, options, stages, &context.stage("measure", 0.95, 1.0))?;
     let report = RemeshReport { tried, ..measured };
     let Meshed { layout, quads, hexes, .. } = meshed;

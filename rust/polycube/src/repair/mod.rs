@@ -61,6 +61,11 @@ pub struct Repaired {
 }
 
 impl Repaired {
+    /// What was done, if anything was.
+    pub(crate) fn repairs(repaired: &Option<Self>) -> &[Repair] {
+        repaired.as_ref().map_or(&[], |repaired| &repaired.repairs)
+    }
+
     /// What there is now to be simplified.
     pub fn input(&self) -> Input<'_> {
         Input { polycube: &self.polycube, shape: self.shape.as_ref(), labels: self.labels.as_deref() }

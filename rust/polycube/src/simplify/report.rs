@@ -7,7 +7,7 @@ use crate::error::Result;
 use crate::layout::Counts;
 use crate::measure::{Distortion, Flipped, distortion, flipped};
 use crate::mesh::Mesh;
-use crate::repair::Repaired;
+use crate::repair::Repair;
 use crate::structure::{Deviation, Polycube};
 
 /// What was done, for people and programs.
@@ -75,9 +75,8 @@ impl SimplifyReport {
     }
 
     /// Says what was repaired before all else.
-    pub(crate) fn note_repairs(&mut self, repaired: Option<&Repaired>) {
-        let repairs = repaired.iter().flat_map(|r| &r.repairs);
-        self.notes.splice(0..0, repairs.map(|repair| Note::Repaired(*repair)));
+    pub(crate) fn note_repairs(&mut self, repairs: &[Repair]) {
+        self.notes.splice(0..0, repairs.iter().map(|repair| Note::Repaired(*repair)));
     }
 
     /// Says so if corners move farther than the options allow, because of `cause`.

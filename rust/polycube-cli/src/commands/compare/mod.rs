@@ -115,7 +115,7 @@ impl Args {
         let simplify = SimplifyOptions {
             strategy: self.strategy.0,
             tolerance: self.tolerance.get(),
-            no_repair: self.tolerance.no_repair,
+            no_repair: self.tolerance.repair.off,
             ..SimplifyOptions::default()
         };
         self.mesh.set(RemeshOptions { simplify: self.choice.set(simplify), ..RemeshOptions::default() })

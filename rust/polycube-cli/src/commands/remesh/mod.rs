@@ -131,7 +131,7 @@ impl Args {
         let simplify = SimplifyOptions {
             strategy: self.strategy.0,
             tolerance: self.tolerance.get(),
-            no_repair: self.tolerance.no_repair,
+            no_repair: self.tolerance.repair.off,
             ..SimplifyOptions::default()
         };
         self.mesh.set(RemeshOptions {
@@ -179,7 +179,7 @@ fn meshed(args: &Args, meshes: MeshFiles, options: &RemeshOptions, context: &Con
         return remesh(&meshes.input(), options, context);
     }
     let MeshFiles { polycube: shape, labels, .. } = meshes;
-    Ok(make::remesh(&shape, &args.make.get(labels), options, context)?.1)
+    Ok(make::remesh(&shape, &args.make.get(labels, args.tolerance.repair), options, context)?.1)
 }
 
 /// Reads, meshes, writes.

@@ -116,7 +116,7 @@ impl Args {
             strategy: self.strategy.0,
             scale: self.scale.or(self.edge_length.map(f64::recip)),
             tolerance: self.mesh.tolerance.get(),
-            no_repair: self.mesh.tolerance.no_repair,
+            no_repair: self.mesh.tolerance.repair.off,
             ..SimplifyOptions::default()
         }))
     }

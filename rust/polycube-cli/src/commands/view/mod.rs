@@ -111,7 +111,7 @@ fn work(args: &Args, context: &Context) -> Result<()> {
         lambda_min: args.rounds.lambda_min,
         objective: Some(default_objective(&meshes.polycube)),
         tolerance: args.mesh.tolerance.get(),
-        no_repair: args.mesh.tolerance.no_repair,
+        no_repair: args.mesh.tolerance.repair.off,
         ..polycube::SimplifyOptions::default()
     };
     let about = Failure::in_file(&args.mesh.polycube);
