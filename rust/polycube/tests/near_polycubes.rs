@@ -145,6 +145,17 @@ fn a_face_of_three_cells_is_refused_at_the_third() {
 }
 
 #[test]
+fn cells_that_use_a_vertex_twice_are_collapsed() {
+    // A prism as a hexahedron, beside a whole one.
+    let points =
+        [[0, 0, 0], [1, 0, 0], [1, 1, 0], [0, 1, 0], [0, 0, 1], [1, 0, 1], [1, 1, 1], [0, 1, 1], [2, 0, 0], [2, 0, 1]];
+    let points = points.iter().map(|p| Point::from(p.map(f64::from))).collect();
+    let cells = Cells::Hexahedra(vec![[0, 1, 2, 3, 4, 5, 6, 7], [1, 8, 2, 2, 5, 9, 6, 6]]);
+    let mesh = Mesh::new(points, cells).unwrap();
+    assert_eq!(violations_of(&mesh, None), [Violation::CollapsedCell { cell: 1, corners: 6 }]);
+}
+
+#[test]
 fn faces_must_have_vertices_of_their_own() {
     let mesh = with_faces(&cube(1), |faces| faces[2][3] = faces[2][0]);
     assert_eq!(violations_of(&mesh, None), [Violation::BadFace { face: 2 }]);

@@ -6,13 +6,15 @@ use polycube::mesh::{Format, Mesh, parse_labels, read_bytes, write_bytes};
 /// Reads a mesh in one of the formats, labels, or guides. What can be read can be written and read again.
 pub fn files(data: &[u8]) {
     let Some((&choice, bytes)) = data.split_first() else { return };
-    match Format::ALL.get(usize::from(choice) % 9) {
+    let formats = Format::ALL.len();
+    let choice = usize::from(choice) % (formats + 2);
+    match Format::ALL.get(choice) {
         Some(&format) => {
             if let Ok(mesh) = read_bytes(format, bytes) {
                 write(&mesh);
             }
         }
-        None if usize::from(choice) % 9 == 7 => {
+        None if choice == formats => {
             if let Ok(labels) = parse_labels(bytes, bytes.len() / 4) {
                 assert!(labels.iter().all(|l| (-1..6).contains(l)));
             }

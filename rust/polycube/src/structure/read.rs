@@ -5,7 +5,7 @@ use super::extract::Skeleton;
 use super::label::{Label, area_vector};
 use super::polycube::{Polycube, Tolerance};
 use super::{Surface, Violation};
-use crate::mesh::{Mesh, Point};
+use crate::mesh::{Cells, Mesh, Point};
 
 impl Polycube {
     /// Reads `mesh` as a polycube, or lists every violation of the first rule that does not hold ([`Violation`]).
@@ -14,6 +14,7 @@ impl Polycube {
     /// face's normal shall decide, as it does for faces beyond the last label. Whether the surface touches itself is
     /// not checked here but by [`overlaps`](Self::overlaps). O(n log n) for n faces.
     pub fn new(mesh: &Mesh, labels: Option<&[i8]>, tolerance: &Tolerance) -> Result<Self, Vec<Violation>> {
+        check_cells(mesh.cells())?;
         let faces = mesh.cells().boundary().map_err(|e| match e.place {
             Some(crate::Place::Edge(a, b)) => vec![Violation::NonManifoldEdge { edge: [a, b] }],
             Some(crate::Place::Cell(cell)) => vec![Violation::CrowdedCell { cell }],
@@ -25,6 +26,22 @@ impl Polycube {
         let skeleton = Skeleton::new(&surface, &charts)?;
         skeleton.into_polycube(mesh.points(), surface, charts, degrees, tolerance)
     }
+}
+
+/// Refuses cells of a volume that use a vertex twice.
+fn check_cells(cells: &Cells) -> Result<(), Vec<Violation>> {
+    if !cells.is_volume() {
+        return Ok(());
+    }
+    let collapsed = |cell: usize| {
+        let mut corners = cells.cell(cell).to_vec();
+        let all = corners.len();
+        corners.sort_unstable();
+        corners.dedup();
+        (corners.len() < all).then(|| Violation::CollapsedCell { cell: cell as u32, corners: corners.len() })
+    };
+    let found: Vec<Violation> = (0..cells.len()).filter_map(collapsed).collect();
+    if found.is_empty() { Ok(()) } else { Err(found) }
 }
 
 /// The label of every face and the largest angle to its axis, or the faces that have none.

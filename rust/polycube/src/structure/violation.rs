@@ -6,7 +6,7 @@ use std::fmt;
 /// One reason why a mesh is not a polycube.
 ///
 /// The rules, in the order in which they are checked; a later rule is checked only where the earlier ones hold:
-/// 1. there is a boundary, and no face of it repeats a vertex;
+/// 1. no cell of a volume repeats a vertex, there is a boundary, and no face of it repeats a vertex;
 /// 2. every mesh edge of the boundary has two faces, which pass it in opposite directions;
 /// 3. the faces around a vertex form one fan;
 /// 4. every face lies within the tolerance of an axis direction (or has a label of its own);
@@ -119,6 +119,13 @@ pub enum Violation {
         /// A face of the component.
         face: u32,
     },
+    /// A cell that uses a vertex twice: a prism or a pyramid stored as a hexahedron, say.
+    CollapsedCell {
+        /// The cell.
+        cell: u32,
+        /// How many different vertices it has.
+        corners: usize,
+    },
     /// A cell with a face that two other cells have, too.
     CrowdedCell {
         /// The cell.
@@ -153,7 +160,9 @@ impl Violation {
             | Self::OppositeCharts { edge }
             | Self::NonMonotoneEdge { edge, .. }
             | Self::ZeroLengthEdge { ends: edge } => Place::Edge(edge[0], edge[1]),
-            Self::CrowdedCell { cell } | Self::InvertedCell { cell } => Place::Cell(cell),
+            Self::CollapsedCell { cell, .. } | Self::CrowdedCell { cell } | Self::InvertedCell { cell } => {
+                Place::Cell(cell)
+            }
         })
     }
 
@@ -178,6 +187,7 @@ impl Violation {
             Self::SelfOverlap { .. } => "self_overlap",
             Self::FoldedFacet { .. } => "folded_facet",
             Self::InsideOut { .. } => "inside_out",
+            Self::CollapsedCell { .. } => "collapsed_cell",
             Self::CrowdedCell { .. } => "crowded_cell",
             Self::InvertedCell { .. } => "inverted_cell",
         }
@@ -215,6 +225,9 @@ impl Violation {
                 "the facet of this face is folded: its border crosses itself or goes round the wrong way".into()
             }
             Self::InsideOut { .. } => "this part of the surface looks inward".into(),
+            Self::CollapsedCell { corners, .. } => {
+                format!("the cell is collapsed: it has {corners} different corners only")
+            }
             Self::CrowdedCell { .. } => "a face of the cell belongs to more than two cells".into(),
             Self::InvertedCell { .. } => "the cell is inverted or flat".into(),
         }
@@ -241,6 +254,9 @@ impl Violation {
             Self::SelfOverlap { .. } => "move the two parts apart",
             Self::FoldedFacet { .. } => "pull the edges of the facet apart there",
             Self::InsideOut { .. } => "flip its faces",
+            Self::CollapsedCell { .. } => {
+                "mesh the solid with whole cells: prisms and pyramids cannot be hexahedra here"
+            }
             Self::CrowdedCell { .. } => "remove duplicate or overlapping cells",
             Self::InvertedCell { .. } => "untangle the polycube map; it is not injective here",
         }
@@ -263,6 +279,7 @@ impl From<Violation> for Error {
             | V::NonManifoldEdge { .. }
             | V::InconsistentOrientation { .. }
             | V::NonManifoldVertex { .. }
+            | V::CollapsedCell { .. }
             | V::CrowdedCell { .. } => ErrorKind::Mesh,
             _ => ErrorKind::Polycube,
         };
