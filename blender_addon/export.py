@@ -18,8 +18,11 @@ FORMATS = (
     ('.inp', "Abaqus (.inp)", "For Abaqus and CalculiX, with sets of blocks and boundary"),
     ('.su2', "SU2 (.su2)", "For SU2, with markers for the boundary"),
     ('.foam', "OpenFOAM (.foam)", "The folder of a case, with zones for blocks and patches for the boundary"),
+    ('.json', "Blocks (.json)", "The block structure: grids, neighbours, classes of edges and names"),
+    ('.xyz', "Plot3D (.xyz)", "A grid of points for each block, without names"),
+    ('.blockmesh', "OpenFOAM blockMesh (.blockmesh)", "The folder of a case with a blockMeshDict of the blocks"),
 )
-SOLVERS = ('.msh', '.inp', '.su2', '.foam')
+SOLVERS = ('.msh', '.inp', '.su2', '.foam', '.json', '.xyz', '.blockmesh')
 
 
 class POLYCUBE_OT_write_hexes(jobs.JobOperator, settings.SearchOptions, settings.ToleranceOptions,

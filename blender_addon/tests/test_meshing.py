@@ -223,13 +223,16 @@ def test_hexahedra_of_a_mirrored_object_are_not_inverted(pair, tmp_path):
 def test_hexahedra_for_solvers(pair, files, command, tmp_path):
     """Where the shape lies at the origin, the very file of the command; elsewhere its vertices in the scene."""
     given = dict(blocks_from='SEARCH', size='COUNT', hexes=2000)
-    formats = ("msh", "inp", "su2", "foam")
+    formats = ("msh", "inp", "su2", "xyz", "json", "foam", "blockmesh")
     out = command("remesh", *files, "--hexes", "2000", *(word for name in formats for word in ("--format", name)))
-    for ending in formats[:3]:
+    for ending in formats[:5]:
         path = tmp_path / f"hexes.{ending}"
         assert ops.export_hexes(filepath=str(path)) == {'FINISHED'} and path.stat().st_size > 10_000
         assert ops.write_hexes(filepath=str(path), **given) == {'FINISHED'}
-        assert path.read_bytes() == (out / path.name).read_bytes()
+        assert path.read_bytes() == (out / ("blocks.json" if ending == "json" else path.name)).read_bytes()
+    ops.write_hexes(filepath=str(tmp_path / "case.blockmesh"), **given)
+    dictionary = "system/blockMeshDict"
+    assert (tmp_path / "case.blockmesh" / dictionary).read_bytes() == (out / "blockmesh" / dictionary).read_bytes()
     ops.write_hexes(filepath=str(tmp_path / "case.foam"), **given)
     for name in ("points", "faces", "boundary", "cellZones"):
         within = f"constant/polyMesh/{name}"

@@ -93,14 +93,14 @@ std::vector<CellField> HexMesh::fields() const {
             {"skewness", skewness}};
 }
 
-void write_solver(const std::string& path, const HexMesh& hexes) {
+void write_solver(const std::string& path, const HexMesh& hexes, const std::string& groups) {
     std::vector<bridge::BoundaryFaceData> boundary;
     for (const BoundaryFace& side : hexes.boundary) {
         boundary.push_back({side.hexahedron, side.face, side.label, side.facet});
     }
     internal::call([&] {
         bridge::write_solver(internal::text(path), internal::view(hexes.mesh), internal::slice(hexes.block_id),
-                             internal::slice(boundary));
+                             internal::slice(boundary), internal::text(groups));
     });
 }
 

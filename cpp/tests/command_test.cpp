@@ -83,3 +83,24 @@ TEST_CASE("remesh writes what the command writes") {
         same(folder / (std::string("case.blockmesh") + file), folder / (std::string("out/blockmesh") + file));
     }
 }
+
+TEST_CASE("groups of faces are written as the command writes them") {
+    const Folder folder("groups");
+    const auto& [polycube, shape] = pair();
+    polycube::write_mesh(folder / "p.off", polycube);
+    std::vector<std::int32_t> part(shape.cell_count());
+    for (std::size_t i = 0; i < part.size(); ++i) part[i] = i < part.size() / 3 ? 4 : 7;
+    polycube::write_mesh(folder / "s.vtk", shape, {{"part", part}});
+    polycube::write_mesh(folder / "s.off", shape);
+    run("remesh " + (folder / "s.off") + " --polycube " + (folder / "p.off") + " --hexes 1500 --max-hausdorff 100" +
+        " --format msh --format su2 --groups " + (folder / "s.vtk") + " -q -o " + (folder / "out"));
+    polycube::RemeshOptions options = coarse();
+    options.simplify = {};
+    options.max_hausdorff = 1.0;
+    const polycube::Remeshed result = polycube::remesh({polycube, shape}, options);
+    for (const char* file : {"hexes.msh", "hexes.su2"}) {
+        polycube::write_solver(folder / file, *result.hexes, folder / "s.vtk");
+        same(folder / file, folder / (std::string("out/") + file));
+    }
+    CHECK_THROWS_AS(polycube::write_solver(folder / "no.msh", *result.hexes, folder / "s.off"), polycube::Error);
+}

@@ -20,7 +20,8 @@ class HexFilter final : public Filter {
                "hexahedra along the coarse block structure. "
                "MeshLab holds no volumes, so they go to a file, where one is named: .vtu or .vtk for ParaView, with "
                "scaled Jacobian, block and label of each cell, .mesh (MEDIT), or with blocks and boundary by name .msh "
-               "(Gmsh), .inp (Abaqus, CalculiX) or .su2. Their boundary is shown as a new layer, coloured by block. "
+               "(Gmsh), .inp (Abaqus, CalculiX) or .su2, or as grids of blocks .json or .xyz (Plot3D). Their boundary "
+               "is shown as a new layer, coloured by block. "
                "The log tells the counts, the least scaled Jacobian, and what was not possible. Ten thousand hexahedra "
                "take some seconds to a minute, and MeshLab cannot stop a filter on its way.";
     }
@@ -29,8 +30,8 @@ class HexFilter final : public Filter {
     host::Values apply(const Call& call) const override;
 };
 
-/// The extensions of files with blocks and boundary by name.
-const QStringList SOLVERS = {"msh", "inp", "su2"};
+/// The extensions of files with blocks and boundary by name, and of those of the block structure.
+const QStringList SOLVERS = {"msh", "inp", "su2", "json", "xyz"};
 /// All that hexahedra are written to.
 const QStringList EXTENSIONS = QStringList{"vtu", "vtk", "mesh"} + SOLVERS;
 

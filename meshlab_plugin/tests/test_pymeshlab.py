@@ -306,8 +306,9 @@ def test_quads_have_patches_and_quality(pair):
 
 def test_hexahedra_are_the_files_that_the_command_writes(pair, command, tmp_path):
     polycube, shape = (mesh.write(tmp_path / f"{name}.off") for mesh, name in zip(pair, ("polycube", "shape")))
-    out = command(tmp_path / "out", "remesh", shape, "--polycube", polycube, "--hexes", 3000, "--format", "msh")
-    for name in ("hexes.vtu", "hexes.mesh", "hexes.msh"):
+    formats = [word for name in ("msh", "json", "xyz") for word in ("--format", name)]
+    out = command(tmp_path / "out", "remesh", shape, "--polycube", polycube, "--hexes", 3000, *formats)
+    for name in ("hexes.vtu", "hexes.mesh", "hexes.msh", "blocks.json", "hexes.xyz"):
         layers = document(*pair)
         parameters = {"polycube": 0, "shape": 1, "hexes": 3000, "file": str(tmp_path / name)}
         values = layers.apply_filter("generate_polycube_hex_remesh", **parameters)

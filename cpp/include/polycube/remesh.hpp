@@ -157,8 +157,13 @@ Remeshed remesh(const Mesh& shape, const RemeshOptions& options = {}, const Cont
 /// inp of Abaqus and CalculiX, su2 of SU2 (boundary only), foam for the folder of an OpenFOAM case; or the block
 /// structure itself: json, xyz of Plot3D (no names), blockmesh for the folder of a case with a blockMeshDict.
 ///
+/// Where `groups` names a mesh file that lies on the shape, most often the shape's own, the boundary in msh, inp, su2
+/// and foam is named by the groups of its faces: materials, groups or objects of OBJ, references of MEDIT, physical
+/// groups of Gmsh, element sets of Abaqus, arrays of the cells of VTK.
+///
 /// @throws Error io, unsupported (another extension, or blocks that blockMesh cannot tell apart), mismatch (the
-/// boundary is not that of the mesh, or blocks are no boxes).
-void write_solver(const std::string& path, const HexMesh& hexes);
+/// boundary is not that of the mesh, blocks are no boxes, or a face of one is in two groups), parse (no groups in the
+/// file).
+void write_solver(const std::string& path, const HexMesh& hexes, const std::string& groups = {});
 
 }  // namespace polycube

@@ -396,7 +396,13 @@ mod ffi {
         fn write_mesh_bytes(extension: &str, mesh: &MeshView, fields: Vec<FieldData>) -> Result<Vec<u8>>;
         fn read_labels(path: &str, face_count: usize) -> Result<Vec<i8>>;
         fn write_labels(path: &str, labels: &[i8]) -> Result<()>;
-        fn write_solver(path: &str, mesh: &MeshView, block_id: &[u32], boundary: &[BoundaryFaceData]) -> Result<()>;
+        fn write_solver(
+            path: &str,
+            mesh: &MeshView,
+            block_id: &[u32],
+            boundary: &[BoundaryFaceData],
+            groups: &str,
+        ) -> Result<()>;
         fn boundary(mesh: &MeshView) -> Result<MeshData>;
         fn scaled_jacobians(mesh: &MeshView) -> Result<Vec<f64>>;
         fn example_names() -> Vec<String>;

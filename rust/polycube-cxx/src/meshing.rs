@@ -117,11 +117,23 @@ impl BoundaryFaceData {
     }
 }
 
-/// See `polycube::mesh::write_solver`.
-pub fn write_solver(path: &str, view: &MeshView, block_id: &[u32], boundary: &[BoundaryFaceData]) -> Result<()> {
+/// See `polycube::mesh::write_solver`; `groups` is the file of groups of the boundary, or empty.
+pub fn write_solver(
+    path: &str,
+    view: &MeshView,
+    block_id: &[u32],
+    boundary: &[BoundaryFaceData],
+    groups: &str,
+) -> Result<()> {
     guard(|| {
         let boundary = boundary.iter().map(BoundaryFaceData::read).collect::<polycube::Result<Vec<_>>>()?;
-        mesh::write_solver(Path::new(path), &core::grouped(&owned(view)?, block_id, &boundary)?)
+        let hexes = owned(view)?;
+        if groups.is_empty() {
+            return mesh::write_solver(Path::new(path), &core::grouped(&hexes, block_id, &boundary)?);
+        }
+        let surface = mesh::read_grouped_surface(Path::new(groups))?;
+        let patches = core::carry_groups(&surface, &hexes, &boundary)?;
+        mesh::write_solver(Path::new(path), &core::grouped_by(&hexes, block_id, &boundary, patches)?)
     })
 }
 

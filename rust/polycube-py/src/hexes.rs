@@ -6,8 +6,8 @@ use crate::mesh::PyMesh;
 use crate::pickle::{self, Reduced};
 use crate::report;
 use polycube::measure::CellMeasures;
-use polycube::mesh::{CellField, Point, SolverFormat, write_solver};
-use polycube::remesh::{BoundaryFace, Hexes, grouped};
+use polycube::mesh::{CellField, Point, SolverFormat, read_grouped_surface, write_solver};
+use polycube::remesh::{BoundaryFace, Hexes, carry_groups, grouped, grouped_by};
 use pyo3::prelude::*;
 use pyo3::types::PyTuple;
 use std::path::PathBuf;
@@ -128,20 +128,42 @@ impl PyHexes {
     ///     path: the file.
     ///     points: (n, 3) float64. Where the vertices lie instead of `points`, as after a rigid motion; what is written
     ///         of the hexahedra stays as it is.
+    ///     groups: a mesh file that lies on the shape (on `points` as they are, whatever the argument says), most often
+    ///         the shape's own. The boundary in msh, inp, su2 and foam is named by the groups of its faces: materials,
+    ///         groups or objects of OBJ, references of MEDIT, physical groups of Gmsh, element sets of Abaqus, arrays
+    ///         of the cells of VTK.
     ///
     /// Raises:
-    ///     FileError: the file cannot be written.
+    ///     FileError: a file cannot be read or written.
     ///     Unsupported: the format is unknown.
     ///     InvalidMesh: `points` is no array of that shape, or not finite.
-    #[pyo3(signature = (path, points=None))]
-    fn write(&self, py: Python<'_>, path: PathBuf, points: Option<&Bound<'_, PyAny>>) -> PyResult<()> {
-        let HexParts { mesh, block_id, boundary, fields, .. } = &*self.0;
-        let mesh = &points.map_or_else(|| Ok(mesh.clone()), |points| mesh.with_points(points))?;
+    ///     InvalidOption: `groups` with a format that is not for solvers.
+    ///     Mismatch: `groups` with json, xyz or blockmesh, where a face of a block is in more than one.
+    ///     ParseError: no face in the file of `groups` is in any.
+    #[pyo3(signature = (path, points=None, groups=None))]
+    fn write(
+        &self,
+        py: Python<'_>,
+        path: PathBuf,
+        points: Option<&Bound<'_, PyAny>>,
+        groups: Option<PathBuf>,
+    ) -> PyResult<()> {
+        let HexParts { mesh: own, block_id, boundary, fields, .. } = &*self.0;
+        let mesh = &points.map_or_else(|| Ok(own.clone()), |points| own.with_points(points))?;
         let extension = path.extension().unwrap_or_default().to_string_lossy();
         if extension.parse::<SolverFormat>().is_err() {
+            if groups.is_some() {
+                return Err(errors::option(py, "this format has no groups", "write msh, inp, su2 or foam"));
+            }
             return mesh.save(py, &path, fields);
         }
-        let write = || write_solver(&path, &grouped(&mesh.0, block_id, boundary)?);
+        let write = || match &groups {
+            None => write_solver(&path, &grouped(&mesh.0, block_id, boundary)?),
+            Some(file) => {
+                let patches = carry_groups(&read_grouped_surface(file)?, &own.0, boundary)?;
+                write_solver(&path, &grouped_by(&mesh.0, block_id, boundary, patches)?)
+            }
+        };
         py.detach(write).map_err(|e| errors::about(py, &e, Some(&mesh.0)))
     }
 

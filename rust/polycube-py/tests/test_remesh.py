@@ -144,6 +144,33 @@ def test_hexahedra_are_written_where_one_says(tmp_path, meshes):
     assert not (tmp_path / "none.msh").exists()
 
 
+def test_groups_of_faces(tmp_path, command, pair, meshes):
+    files = tmp_path / "shape.mesh", tmp_path / "polycube.mesh"
+    for mesh, path in zip(pair, files):
+        mesh.write(path)
+    surface = polycube.Mesh(pair[0].points, pair[0].boundary(), "triangles")
+    height = surface.points[surface.cells].mean(axis=1)[:, 2]
+    painted = tmp_path / "painted.vtk"
+    surface.write(painted, {"part": (height > np.median(height)).astype(np.int32)})
+    size = ("--hexes", 1500, "--max-hausdorff", 5, "--format", "msh", "--format", "su2")
+    command("remesh", files[0], "--polycube", files[1], "-o", tmp_path / "out", *size, "--groups", painted)
+    for name in ("hexes.msh", "hexes.su2"):
+        meshes.hexes.write(tmp_path / name, groups=painted)
+        assert (tmp_path / name).read_bytes() == (tmp_path / "out" / name).read_bytes()
+    moved = tmp_path / "moved.su2"
+    meshes.hexes.write(moved, points=meshes.hexes.points + [1e3, 0.0, 0.0], groups=painted)
+    marks = [path.read_text().split("NMARK")[1] for path in (moved, tmp_path / "hexes.su2")]
+    assert marks[0] == marks[1] and marks[0].count("MARKER_TAG= group_") == 2
+    with pytest.raises(polycube.InvalidOption):
+        meshes.hexes.write(tmp_path / "none.vtu", groups=painted)
+    with pytest.raises(polycube.ParseError):
+        surface.write(tmp_path / "plain.obj")
+        meshes.hexes.write(tmp_path / "none.msh", groups=tmp_path / "plain.obj")
+    with pytest.raises(polycube.FileError):
+        meshes.hexes.write(tmp_path / "none.msh", groups=tmp_path / "none.obj")
+    assert not (tmp_path / "none.msh").exists()
+
+
 @pytest.mark.parametrize(
     "option",
     [

@@ -18,6 +18,9 @@ pub struct Files {
     pub shape: Option<String>,
     /// The label file.
     pub labels: Option<String>,
+    /// The file of groups of the boundary, where one was named.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub groups: Option<String>,
 }
 
 /// `report.json` of `make`.

@@ -93,6 +93,46 @@ fn formats_for_solvers_may_be_several_and_go_with_the_next_run() {
     assert_eq!(sandbox.names("out"), without);
 }
 
+/// The upper half of the shape is the group `lid`, as OBJ has it; the boundary of the mesh has its area.
+#[test]
+fn groups_of_the_shape_are_on_the_boundary() {
+    let sandbox = sandbox(CellKind::Triangles, "obj");
+    let shape = mesh::read(&sandbox.path("shape.obj")).unwrap();
+    let text = String::from_utf8(sandbox.read("shape.obj")).unwrap();
+    let height = |i: usize| shape.cells().cell(i).iter().map(|&v| shape.points()[v as usize].z).sum::<f64>();
+    let middle = (0..shape.cells().len()).map(height).sum::<f64>() / shape.cells().len() as f64;
+    let faces = (0..shape.cells().len()).zip(text.lines().filter(|line| line.starts_with('f')));
+    let named = faces.map(|(i, line)| format!("g {}\n{line}\n", if height(i) > middle { "the lid" } else { "base" }));
+    let vertices = text.lines().filter(|line| line.starts_with('v')).map(|line| format!("{line}\n"));
+    sandbox.write("painted.obj", &vertices.chain(named).collect::<String>());
+    let line =
+        "remesh shape.obj --polycube cube.obj -o out --quiet --hexes 1500 --max-hausdorff 50 --groups painted.obj";
+    sandbox.ok(&format!("{line} --format msh --format inp --format su2 --format foam --format json"));
+    let area = |surface: &mesh::GroupedSurface, name: &str| {
+        let number = surface.groups().names().iter().position(|n| n == name).unwrap() as u32;
+        let at = |v: u32| surface.mesh().points()[v as usize];
+        let of = |i: usize| match *surface.mesh().cells().cell(i) {
+            [a, b, c] if surface.groups().of()[i] == number => (at(b) - at(a)).cross(&(at(c) - at(a))).norm() / 2.0,
+            _ => 0.0,
+        };
+        (0..surface.mesh().cells().len()).map(of).sum::<f64>()
+    };
+    let [was, is] = ["painted.obj", "out/hexes.msh"].map(|f| mesh::read_grouped_surface(&sandbox.path(f)).unwrap());
+    for name in ["the_lid", "base"] {
+        let (was, is) = (area(&was, name), area(&is, name));
+        assert!((is / was - 1.0).abs() < 0.02, "{name}: {was} became {is}");
+    }
+    let held = |file: &str, text: &str| String::from_utf8_lossy(&sandbox.read(file)).contains(text);
+    assert!(held("out/hexes.su2", "NMARK= 2\n") && held("out/hexes.inp", "*SURFACE, TYPE=ELEMENT, NAME=the_lid\n"));
+    assert!(held("out/foam/constant/polyMesh/boundary", "    the_lid\n") && held("out/blocks.json", "plus_x"));
+    assert_eq!(sandbox.json("out/report.json")["input"]["groups"], "painted.obj");
+    let line = "remesh shape.obj --polycube cube.obj -o no --format msh --groups";
+    sandbox.fails(&format!("{line} cube.obj"), 1, &["cube.obj", "no face", "in a group"]);
+    sandbox.fails(&format!("{line} none.obj"), 1, &["none.obj"]);
+    sandbox.fails("remesh shape.obj --polycube cube.obj -o no --groups painted.obj", 2, &["--groups", "--format msh"]);
+    assert!(!sandbox.path("no").exists());
+}
+
 #[test]
 fn solvers_want_hexahedra() {
     let sandbox = sandbox(CellKind::Triangles, "obj");

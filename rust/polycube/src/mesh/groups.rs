@@ -7,6 +7,9 @@ use std::collections::BTreeSet;
 /// Longest name of a group, as CalculiX has it.
 const LONGEST: usize = 80;
 
+/// Room for what is put before or after a name to make it one that formats take.
+const SPARE: usize = 16;
+
 /// Elements in groups with names, each element in one.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Groups {
@@ -57,6 +60,23 @@ impl Groups {
     }
 }
 
+/// Names such as [`Groups::new`] takes, made of any.
+pub(super) fn plain_names(names: Vec<String>) -> Vec<String> {
+    // In files of Abaqus and CalculiX this is the set of all nodes.
+    let mut known = BTreeSet::from(["all_nodes".to_owned()]);
+    let plain = |name: String| {
+        let letters = |c: char| if c.is_ascii_alphanumeric() { c } else { '_' };
+        let mut plain: String = name.chars().map(letters).take(LONGEST - SPARE).collect();
+        if !plain.starts_with(|c: char| c.is_ascii_alphabetic()) {
+            plain.insert_str(0, "group_");
+        }
+        let numbered = (2..).map(|i| format!("{plain}_{i}"));
+        let free = |name: &String| known.insert(name.to_ascii_lowercase());
+        std::iter::once(plain.clone()).chain(numbered).find(free).unwrap_or(plain)
+    };
+    names.into_iter().map(plain).collect()
+}
+
 fn check_names(names: &[String]) -> Result<()> {
     let mut known = BTreeSet::new();
     for name in names {
@@ -85,7 +105,7 @@ pub struct GroupedHexes<'a> {
 
 impl<'a> GroupedHexes<'a> {
     /// The hexahedra of `mesh` in `blocks`; the faces of their `boundary` in `patches`, and these in `sides`, both one
-    /// for each face. O(n log n) for n hexahedra.
+    /// for each face. Sides that are the patches are written once. O(n log n) for n hexahedra.
     ///
     /// # Errors
     /// [`ErrorKind::Unsupported`] for other cells; [`ErrorKind::Mesh`] for none, or as [`Cells::boundary`];
@@ -138,6 +158,11 @@ impl<'a> GroupedHexes<'a> {
     /// The side of each face of the outside; all of a patch are in one.
     pub fn sides(&self) -> &Groups {
         &self.sides
+    }
+
+    /// The sides, unless they are the patches.
+    pub(super) fn sides_apart(&self) -> Option<&Groups> {
+        Some(&self.sides).filter(|sides| **sides != self.patches)
     }
 
     /// The side that a patch with these faces is in.

@@ -6,6 +6,7 @@
 mod blocks;
 mod checked;
 mod compact;
+mod grouped_surface;
 mod groups;
 pub(crate) mod hexahedron;
 mod io;
@@ -14,11 +15,13 @@ mod stars;
 
 pub use blocks::{BLOCK_FACES, Beyond, Block, Blocks, Neighbour};
 pub use checked::Mesh;
+pub use grouped_surface::GroupedSurface;
 pub use groups::{GroupedHexes, Groups};
 pub use hexahedron::HexFace;
 pub use io::{
-    CellField, FieldValues, Format, LabelOrder, SolverFormat, Staged, parse_labels, read, read_bytes, read_labels,
-    read_labels_of, read_pair, write, write_atomically, write_bytes, write_labels, write_solver, write_solver_bytes,
+    CellField, FieldValues, Format, LabelOrder, SolverFormat, Staged, parse_labels, read, read_bytes,
+    read_grouped_surface, read_labels, read_labels_of, read_pair, write, write_atomically, write_bytes, write_labels,
+    write_solver, write_solver_bytes,
 };
 pub use simplices::{Face, Simplices};
 pub(crate) use stars::Stars;

@@ -19,7 +19,7 @@ mod tests;
 pub(crate) use lattice::count_hexes;
 pub use lattice::{BoundaryFace, Size};
 pub(crate) use map::Refined;
-pub use mesher::{Hexes, Layout, Quads, SingularEdge, grouped};
+pub use mesher::{Hexes, Layout, Quads, SingularEdge, carry_groups, grouped, grouped_by};
 pub use options::RemeshOptions;
 pub use pipeline::{Remeshed, remesh};
 pub use report::{InvertedCell, RemeshReport};

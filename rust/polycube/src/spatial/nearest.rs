@@ -54,6 +54,13 @@ impl<const N: usize> Nearest<N> {
         Some(Foot { index: piece.index as usize, point: at, weights })
     }
 
+    /// The number of the nearest piece that is `accepted`, or else of the nearest; none only for an empty index. As
+    /// [`foot`](Self::foot) where one of the nearest is accepted, linear time where none is.
+    pub(crate) fn nearest_of(&self, point: &Point, accepted: impl Fn(usize) -> bool) -> Option<usize> {
+        let all = || self.tree.nearest_neighbor_iter([point.x, point.y, point.z]).map(|piece| piece.index as usize);
+        all().find(|&index| accepted(index)).or_else(|| all().next())
+    }
+
     /// The distance from `point` to the nearest piece; infinite where there is none.
     pub(crate) fn distance(&self, point: &Point) -> f64 {
         self.foot(point).map_or(f64::INFINITY, |foot| (foot.point - point).norm())

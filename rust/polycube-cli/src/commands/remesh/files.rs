@@ -4,7 +4,9 @@ use crate::failure::Result;
 use crate::input::meshes::MeshFiles;
 use crate::options::format::{OutputFormat, solver_formats};
 use crate::output::colour;
-use polycube::mesh::{CellField, CellKind, Format, Mesh, SolverFormat, write_solver_bytes};
+use polycube::mesh::{
+    CellField, CellKind, Format, GroupedSurface, Mesh, SolverFormat, read_grouped_surface, write_solver_bytes,
+};
 use polycube::remesh::Remeshed;
 use polycube::{Error, ErrorKind};
 use std::path::Path;
@@ -17,6 +19,8 @@ pub struct Formats {
     extra: Vec<Format>,
     /// Those of the hexahedra for solvers.
     solvers: Vec<SolverFormat>,
+    /// The groups that the boundary has in those that take any.
+    groups: Option<GroupedSurface>,
 }
 
 impl Formats {
@@ -31,7 +35,7 @@ impl Formats {
             let kind = meshes.polycube.cells().kind();
             return Err(Error::new(ErrorKind::Option, format!("a .{polycube} file cannot hold {kind}")).into());
         }
-        let mut formats = Self { polycube, extra: Vec::new(), solvers: Vec::new() };
+        let mut formats = Self { polycube, extra: Vec::new(), solvers: Vec::new(), groups: None };
         for (_, &format) in asked.iter().enumerate().filter(|&(i, format)| !asked[..i].contains(format)) {
             match format {
                 OutputFormat::Mesh(Format::Stl) => return Err(no_stl().into()),
@@ -42,6 +46,25 @@ impl Formats {
         }
         Ok(formats)
     }
+
+    /// The same with the groups of the faces in this file.
+    ///
+    /// # Errors
+    /// [`ErrorKind::Option`] when no format has groups; those of [`read_grouped_surface`].
+    pub fn with_groups(mut self, file: Option<&Path>) -> Result<Self> {
+        let Some(file) = file else { return Ok(self) };
+        if !self.solvers.iter().any(|&format| has_groups(format)) {
+            let remedy = "add --format msh, inp, su2 or foam, without --surface-only";
+            return Err(Error::new(ErrorKind::Option, "--groups has no effect").remedy(remedy).into());
+        }
+        self.groups = Some(read_grouped_surface(file)?);
+        Ok(self)
+    }
+}
+
+/// Whether faces of the boundary may be in any groups: where blocks are told as such, each face of one is in a facet.
+fn has_groups(format: SolverFormat) -> bool {
+    !matches!(format, SolverFormat::Json | SolverFormat::Xyz | SolverFormat::BlockMesh)
 }
 
 fn no_stl() -> Error {
@@ -116,8 +139,10 @@ pub fn files<'a>(result: &'a Remeshed, formats: &Formats) -> Vec<File<'a>> {
 /// Those of [`Hexes::grouped`](polycube::remesh::Hexes::grouped) and [`write_solver_bytes`].
 pub fn solver_files(result: &Remeshed, formats: &Formats) -> Result<Vec<(String, Vec<u8>)>> {
     let Some(hexes) = result.hexes.as_ref().filter(|_| !formats.solvers.is_empty()) else { return Ok(Vec::new()) };
-    let grouped = hexes.grouped()?;
-    let files = formats.solvers.iter().map(|&format| write_solver_bytes(format, HEXES, &grouped));
+    let facets = hexes.grouped()?;
+    let carried = formats.groups.as_ref().map(|surface| hexes.grouped_by(surface)).transpose()?;
+    let groups = |format| carried.as_ref().filter(|_| has_groups(format)).unwrap_or(&facets);
+    let files = formats.solvers.iter().map(|&format| write_solver_bytes(format, HEXES, groups(format)));
     Ok(files.collect::<polycube::Result<Vec<_>>>()?.concat())
 }
 

@@ -53,6 +53,9 @@ facets that look one way on the polycube):
   su2    hexes.su2, of SU2: markers minus_x to plus_z, no blocks
   foam   foam/constant/polyMesh, of OpenFOAM: a patch for each facet, in the group of its direction;
          cell zones
+--groups FILE takes the groups of a mesh file that lies on the shape, such as SHAPE itself, for these
+names: materials, groups or objects of OBJ, references of MEDIT, physical groups of Gmsh, element
+sets of Abaqus, arrays of the cells of VTK; faces in none are in `other`.
 The block structure itself, for solvers that want grids:
   json       blocks.json: points, grids of vertices, edge classes, neighbours, names; see the guide
   xyz        hexes.xyz, of Plot3D: many blocks, text, no names
@@ -121,6 +124,11 @@ pub struct Args {
     #[arg(long, value_name = "EXT", value_parser = output_format)]
     pub format: Vec<OutputFormat>,
 
+    /// Name the boundary in msh, inp, su2 and foam by the groups of faces in this mesh file, most often SHAPE itself
+    /// [default: by facets and directions]
+    #[arg(long, value_name = "FILE", value_hint = ValueHint::FilePath)]
+    pub groups: Option<PathBuf>,
+
     /// Whether it is silent.
     #[command(flatten)]
     pub quiet: QuietArg,
@@ -142,7 +150,12 @@ impl Args {
     }
 
     fn inputs(&self) -> Vec<&Path> {
-        std::iter::once(&self.shape).chain(&self.polycube).chain(&self.labels.file).map(PathBuf::as_path).collect()
+        std::iter::once(&self.shape)
+            .chain(&self.polycube)
+            .chain(&self.labels.file)
+            .chain(&self.groups)
+            .map(PathBuf::as_path)
+            .collect()
     }
 
     fn files(&self) -> Files {
@@ -151,6 +164,7 @@ impl Args {
             polycube: self.polycube.as_deref().map(name),
             shape: Some(name(&self.shape)),
             labels: self.labels.file.as_deref().map(name),
+            groups: self.groups.as_deref().map(name),
         }
     }
 }
@@ -191,6 +205,7 @@ pub fn work(args: &Args, context: &Context) -> Result<Remeshed> {
     let polycube = args.polycube.as_ref().unwrap_or(&args.shape);
     let meshes = MeshFiles::read(polycube, shape, args.labels.given())?;
     let formats = Formats::new(polycube, &args.format, args.options().surface_only, &meshes)?;
+    let formats = formats.with_groups(args.groups.as_deref())?;
     let read = start.elapsed().as_secs_f64();
     let about = Failure::in_files(polycube, args.search.guides.as_deref());
     let mut options = args.options();

@@ -129,6 +129,7 @@ impl Args {
     fn files(&self) -> Files {
         let name = |path: &Path| path.display().to_string();
         Files {
+            groups: None,
             polycube: Some(name(&self.mesh.polycube)),
             shape: self.shape.as_deref().map(name),
             labels: self.mesh.labels.file.as_deref().map(name),

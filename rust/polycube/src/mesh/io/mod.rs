@@ -9,6 +9,7 @@ mod format;
 mod formats;
 mod label_order;
 mod labels;
+mod painted;
 mod pair;
 mod polygon;
 mod scalar;
@@ -26,6 +27,7 @@ pub use file::{Staged, write_atomically};
 pub use format::Format;
 pub use label_order::LabelOrder;
 pub use labels::{parse_labels, read_labels, read_labels_of, write_labels};
+pub use painted::read_grouped_surface;
 pub use pair::read_pair;
 pub use solver::{SolverFormat, write_solver, write_solver_bytes};
 

@@ -4,6 +4,7 @@ use super::polygon::triangles;
 use crate::error::{Error, ErrorKind, Place, Result};
 use crate::mesh::checked::check_points;
 use crate::mesh::{Cells, Mesh, Point};
+use std::collections::HashMap;
 
 #[derive(Clone, Copy, PartialEq, Eq)]
 enum Shape {
@@ -19,6 +20,15 @@ struct Entry {
     end: usize,
     /// A number that the file gives it: a reference, a group, a material.
     tag: Option<i64>,
+    /// The place of its group's name, where that has one.
+    name: Option<u32>,
+}
+
+/// What a file calls a group of faces.
+#[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
+pub(super) enum GroupKey<'a> {
+    Name(&'a str),
+    Number(i64),
 }
 
 /// Points and polygons, tetrahedra and hexahedra over them, in the order of the file.
@@ -28,13 +38,16 @@ pub(super) struct Soup {
     pub(super) points: Vec<Point>,
     corners: Vec<u32>,
     entries: Vec<Entry>,
+    /// Names of groups in the order in which the file has them.
+    names: Vec<String>,
+    places: HashMap<String, u32>,
 }
 
 impl Soup {
     fn add(&mut self, shape: Shape, corners: &[u32], line: usize) {
         self.corners.extend_from_slice(corners);
         let end = self.corners.len();
-        self.entries.push(Entry { shape, line, end, tag: None });
+        self.entries.push(Entry { shape, line, end, tag: None, name: None });
     }
 
     /// Adds a face. `line` is where the file says so, 0 where lines mean nothing.
@@ -54,6 +67,34 @@ impl Soup {
         if let Some(entry) = self.entries.last_mut() {
             entry.tag = tag;
         }
+    }
+
+    /// The number of a group of this name, for [`put_in`](Self::put_in).
+    pub(super) fn group(&mut self, name: &[u8]) -> u32 {
+        let name = String::from_utf8_lossy(name.trim_ascii());
+        if let Some(&known) = self.places.get(name.as_ref()) {
+            return known;
+        }
+        let place = u32::try_from(self.names.len()).unwrap_or(u32::MAX);
+        self.places.insert(name.clone().into_owned(), place);
+        self.names.push(name.into_owned());
+        place
+    }
+
+    /// Puts what was added last into a group.
+    pub(super) fn put_in(&mut self, group: Option<u32>) {
+        if let Some(entry) = self.entries.last_mut() {
+            entry.name = group;
+        }
+    }
+
+    /// The group of each face that the file lists, by its name or else by its number, if it has either.
+    pub(super) fn groups_of_polygons(&self) -> impl Iterator<Item = Option<GroupKey<'_>>> {
+        let polygons = self.entries.iter().filter(|entry| entry.shape == Shape::Polygon);
+        polygons.map(|entry| {
+            let name = entry.name.map(|i| GroupKey::Name(&self.names[i as usize]));
+            name.or(entry.tag.map(GroupKey::Number))
+        })
     }
 
     /// The number of each face that the file lists, if it has one.

@@ -1,5 +1,6 @@
 //! Quadrilaterals, hexahedra and coarse layouts: the lattice mapped onto the shape.
 
+mod carried;
 mod embedding;
 mod groups;
 mod hexes;
@@ -7,7 +8,8 @@ mod layout;
 mod quads;
 mod remesher;
 
-pub use groups::grouped;
+pub use carried::carry_groups;
+pub use groups::{grouped, grouped_by};
 pub use hexes::Hexes;
 #[cfg(test)]
 pub(crate) use hexes::MAX_PADDING;

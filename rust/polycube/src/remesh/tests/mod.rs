@@ -1,5 +1,6 @@
 //! Tests of the whole part, on generated and on real polycubes.
 
+mod carried;
 mod counts;
 mod on_real_data;
 mod pipeline;

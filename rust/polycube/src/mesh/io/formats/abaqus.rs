@@ -20,10 +20,18 @@ pub(super) fn read(bytes: &[u8]) -> Result<Soup> {
 #[derive(Clone, Copy, Default)]
 enum Section {
     Nodes,
-    /// Of a kind, in a set whose name has this number.
-    Elements(Kind, Option<i64>),
+    /// Of a kind, in a set.
+    Elements(Kind, Option<Set>),
     #[default]
     Other,
+}
+
+/// A set of elements.
+#[derive(Clone, Copy)]
+struct Set {
+    /// The number that its name has.
+    number: Option<i64>,
+    group: u32,
 }
 
 /// What is made of elements.
@@ -57,7 +65,7 @@ impl File {
         let was_continued = std::mem::replace(&mut self.continued, line.ends_with(b","));
         let here = |error: Error| error.at(Place::Line(number));
         if line.starts_with(b"*") {
-            self.section = section(&line.to_ascii_uppercase()).map_err(here)?;
+            self.section = section(&line.to_ascii_uppercase(), &mut self.soup).map_err(here)?;
             self.numbers.clear();
             return Ok(());
         }
@@ -86,7 +94,7 @@ impl File {
     }
 
     /// Takes a line of an element, which may be one of several.
-    fn element(&mut self, (kind, set): (Kind, Option<i64>), line: &[u8], at: usize, was_continued: bool) -> Result<()> {
+    fn element(&mut self, (kind, set): (Kind, Option<Set>), line: &[u8], at: usize, was_continued: bool) -> Result<()> {
         let corners = match kind {
             Kind::Nothing => return Ok(()),
             Kind::Face(n) => n,
@@ -114,7 +122,8 @@ impl File {
             (Kind::Hexahedron, &[a, b, c, d, e, f, g, h]) => self.soup.hexahedron([a, b, c, d, e, f, g, h], at),
             _ => self.soup.polygon(&vertices, at)?,
         }
-        self.soup.tag(set);
+        self.soup.tag(set.and_then(|set| set.number));
+        self.soup.put_in(set.map(|set| set.group));
         Ok(())
     }
 }
@@ -136,7 +145,7 @@ fn unexpected(what: &str, word: &[u8]) -> Error {
 }
 
 /// What follows a line with a keyword, in upper case.
-fn section(line: &[u8]) -> Result<Section> {
+fn section(line: &[u8], soup: &mut Soup) -> Result<Section> {
     let mut parts = fields(line);
     match parts.next().unwrap_or_default() {
         b"*NODE" => Ok(Section::Nodes),
@@ -144,7 +153,8 @@ fn section(line: &[u8]) -> Result<Section> {
             let all: Vec<&[u8]> = parts.collect();
             let name = parameter(&all, b"TYPE");
             let name = name.ok_or_else(|| Error::new(ErrorKind::Parse, "elements without a type"))?;
-            Ok(Section::Elements(kind(name)?, parameter(&all, b"ELSET").and_then(number_in)))
+            let set = |name| Set { number: number_in(name), group: soup.group(name) };
+            Ok(Section::Elements(kind(name)?, parameter(&all, b"ELSET").map(set)))
         }
         b"*INCLUDE" => Err(Error::new(ErrorKind::Unsupported, "the file includes another").remedy("put them into one")),
         _ => Ok(Section::Other),

@@ -15,6 +15,7 @@ pub(super) fn read(bytes: &[u8]) -> Result<Soup> {
         let name = word.strip_prefix(b"$").ok_or_else(|| file.scanner.unexpected("a section, as $Nodes", word))?;
         file.scanner.rest_of_line();
         match (name, file.version) {
+            (b"PhysicalNames", _) => file.names()?,
             (b"Entities", _) => file.entities()?,
             (b"Nodes", Version::Two) => file.nodes_2()?,
             (b"Nodes", Version::Four) => file.nodes_4()?,
@@ -43,6 +44,8 @@ struct File<'a> {
     vertices: HashMap<i64, u32>,
     /// The first physical group of the entities that are in any, by their dimensions and tags.
     groups: HashMap<(i64, i64), i64>,
+    /// The physical groups of surfaces that have names, with their places in the soup.
+    names: HashMap<i64, u32>,
     soup: Soup,
 }
 
@@ -67,7 +70,15 @@ impl<'a> File<'a> {
         let one = if is_binary { scanner.take(4, "the number 1 that tells the order of bytes")? } else { &[] };
         let binary = is_binary.then(|| if one == 1_i32.to_be_bytes() { Endian::Big } else { Endian::Little });
         scanner.past(b"$EndMeshFormat")?;
-        Ok(Self { scanner, version, binary, vertices: HashMap::new(), groups: HashMap::new(), soup: Soup::default() })
+        Ok(Self {
+            scanner,
+            version,
+            binary,
+            vertices: HashMap::new(),
+            groups: HashMap::new(),
+            names: HashMap::new(),
+            soup: Soup::default(),
+        })
     }
 
     fn number(&mut self, scalar: Scalar, endian: Endian, what: &str) -> Result<f64> {
@@ -113,6 +124,19 @@ impl<'a> File<'a> {
             return Err(self.scanner.error(format!("a second node {tag}")).remedy("number the nodes from 1 on"));
         }
         self.soup.points.push(point);
+        Ok(())
+    }
+
+    fn names(&mut self) -> Result<()> {
+        for _ in 0..self.scanner.count("the number of names")? {
+            let dimension = self.scanner.integer("a dimension")?;
+            let number = self.scanner.integer("a group")?;
+            let name = self.scanner.rest_of_line().unwrap_or_default().trim_ascii();
+            if dimension == 2 {
+                let name = name.strip_prefix(b"\"").and_then(|name| name.strip_suffix(b"\"")).unwrap_or(name);
+                self.names.insert(number, self.soup.group(name));
+            }
+        }
         Ok(())
     }
 
@@ -253,6 +277,7 @@ impl<'a> File<'a> {
             _ => return Ok(()),
         }
         self.soup.tag(group);
+        self.soup.put_in(group.and_then(|group| self.names.get(&group).copied()));
         Ok(())
     }
 }

@@ -11,6 +11,8 @@ pub(super) fn read(bytes: &[u8]) -> Result<Soup> {
     let mut soup = Soup::default();
     let mut corners = Vec::new();
     let (mut material, mut group) = (None, None);
+    // Names of material, group and object: the first that is there names the faces.
+    let mut names = [None; 3];
     let mut scanner = Scanner::new(without_mark(bytes));
     loop {
         let line = scanner.line();
@@ -21,10 +23,11 @@ pub(super) fn read(bytes: &[u8]) -> Result<Soup> {
         let rest = match text.get(start.unwrap_or(text.len())..) {
             Some([b'v' | b'f', rest @ ..]) if rest.first().is_none_or(separates) => rest,
             Some(other) => {
-                match other.split_first_chunk::<7>() {
-                    Some((b"usemtl ", name)) => material = number_in(name),
-                    _ if other.starts_with(b"g ") => group = number_in(&other[2..]),
-                    _ => {}
+                match name_of(other) {
+                    Some((0, name)) => (material, names[0]) = (number_in(name), Some(soup.group(name))),
+                    Some((1, name)) => (group, names[1]) = (number_in(name), Some(soup.group(name))),
+                    Some((i, name)) => names[i] = Some(soup.group(name)),
+                    None => {}
                 }
                 continue;
             }
@@ -36,9 +39,17 @@ pub(super) fn read(bytes: &[u8]) -> Result<Soup> {
         statement.read(&mut scanner, &mut soup, &mut corners)?;
         if !is_vertex {
             soup.tag(material.or(group));
+            soup.put_in(names.into_iter().flatten().next());
         }
     }
     Ok(soup)
+}
+
+/// What follows the name of a material (0), a group (1) or an object (2).
+fn name_of(statement: &[u8]) -> Option<(usize, &[u8])> {
+    let keywords = [&b"usemtl "[..], b"g ", b"o "];
+    let named = |(i, keyword): (usize, &[u8])| Some((i, statement.strip_prefix(keyword)?.trim_ascii()));
+    keywords.into_iter().enumerate().find_map(named).filter(|(_, name)| !name.is_empty())
 }
 
 struct Statement<'a> {

@@ -45,8 +45,11 @@ fn boundary(hexes: &GroupedHexes, faces: &mut Vec<HexFace>) -> Text {
     let mut text = header("polyBoundaryMesh", "boundary", "");
     text.put(patches.len()).put("\n(\n");
     for (_, name, members) in patches {
-        let (side, count, start) = (&hexes.sides().names()[hexes.side_of(&members)], members.len(), faces.len());
-        text.put(format_args!("    {name}\n    {{\n        type patch;\n        inGroups 1({side});\n"));
+        let (count, start) = (members.len(), faces.len());
+        text.put(format_args!("    {name}\n    {{\n        type patch;\n"));
+        if let Some(sides) = hexes.sides_apart() {
+            text.put(format_args!("        inGroups 1({});\n", sides.names()[hexes.side_of(&members)]));
+        }
         text.put(format_args!("        nFaces {count};\n        startFace {start};\n    }}\n"));
         faces.extend(members.iter().map(|&i| hexes.boundary()[i as usize]));
         faces[start..].sort_unstable();

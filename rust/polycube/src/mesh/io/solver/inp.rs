@@ -29,7 +29,7 @@ pub(super) fn write(hexes: &GroupedHexes) -> Vec<u8> {
         text.put("*ELSET, ELSET=").put(name).end();
         numbers(&mut text, &cells);
     }
-    groups(&mut text, hexes, hexes.sides());
+    hexes.sides_apart().iter().for_each(|sides| groups(&mut text, hexes, sides));
     groups(&mut text, hexes, hexes.patches());
     text.into_bytes()
 }

@@ -2,7 +2,7 @@
 //! physical groups.
 
 use crate::mesh::io::text::Text;
-use crate::mesh::{GroupedHexes, Point, Stars};
+use crate::mesh::{GroupedHexes, Groups, Point, Stars};
 
 const QUADRILATERAL: u32 = 3;
 const HEXAHEDRON: u32 = 5;
@@ -20,11 +20,17 @@ pub(super) fn write(hexes: &GroupedHexes) -> Vec<u8> {
 
 /// The number of the physical group of a patch, after those of the sides.
 fn patch_group(hexes: &GroupedHexes, patch: usize) -> usize {
-    hexes.sides().names().len() + patch + 1
+    hexes.sides_apart().map_or(0, |sides| sides.names().len()) + patch + 1
+}
+
+/// The physical groups of a patch with these faces: how many, and their numbers.
+fn groups_of(hexes: &GroupedHexes, patch: usize, faces: &[u32]) -> String {
+    let own = patch_group(hexes, patch);
+    hexes.sides_apart().map_or(format!("1 {own}"), |_| format!("2 {} {own}", hexes.side_of(faces) + 1))
 }
 
 fn names(text: &mut Text, hexes: &GroupedHexes) {
-    let sides = hexes.sides().members().map(|(i, name, _)| (2, i + 1, name));
+    let sides = hexes.sides_apart().into_iter().flat_map(Groups::members).map(|(i, name, _)| (2, i + 1, name));
     let patches = hexes.patches().members().map(|(i, name, _)| (2, patch_group(hexes, i), name));
     let blocks = hexes.blocks().members().map(|(i, name, _)| (3, i + 1, name));
     let all: Vec<_> = sides.chain(patches).chain(blocks).collect();
@@ -40,8 +46,8 @@ fn entities(text: &mut Text, hexes: &GroupedHexes) {
     let (surfaces, volumes) = (hexes.patches().members().count(), hexes.blocks().members().count());
     text.put("$Entities\n").put(format_args!("0 0 {surfaces} {volumes}\n"));
     for (patch, _, faces) in hexes.patches().members() {
-        let groups = format!("2 {} {}", hexes.side_of(&faces) + 1, patch_group(hexes, patch));
-        entity(text, patch, points, faces.iter().flat_map(|&face| hexes.quad(face)), &groups);
+        let vertices = faces.iter().flat_map(|&face| hexes.quad(face));
+        entity(text, patch, points, vertices, &groups_of(hexes, patch, &faces));
     }
     for (block, _, cells) in hexes.blocks().members() {
         let vertices = cells.iter().flat_map(|&cell| hexes.cells()[cell as usize]);

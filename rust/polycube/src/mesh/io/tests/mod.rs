@@ -1,6 +1,7 @@
 mod data;
 mod labels;
 mod malformed;
+mod painted;
 mod property;
 mod variants;
 
