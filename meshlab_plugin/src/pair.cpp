@@ -160,8 +160,10 @@ Meshed remesh(const Call& call, const PairLayers& layers, const polycube::filter
     }
     if (!pair.locked_faces.empty())
         call.log("warning: no face is locked, as the polycube is yet to be made of the layer");
+    polycube::filter::Pair alone;
+    alone.shape = pair.polycube;
     try {
-        return {polycube::filter::remesh({{}, pair.polycube, {}, {}}, settings, call.context), 0};
+        return {polycube::filter::remesh(alone, settings, call.context), 0};
     } catch (const polycube::Error& error) {
         if (error.kind() == polycube::ErrorKind::mesh)
             check_surface(polycube::filter::inspect(pair, settings, call.context).checked.violations);
