@@ -40,6 +40,7 @@ fn all_files_are_there_and_read_back() {
         assert!(cell_qualities(&mesh).unwrap().iter().all(|q| q.1 > 0.0), "{file}");
     }
     let quads = mesh::read(&sandbox.path("out/quads.obj")).unwrap();
+    assert!(!String::from_utf8_lossy(&sandbox.read("out/quads.obj")).contains("vt "));
     assert!(matches!(quads.cells(), Cells::Quads(_)));
     assert_eq!(report["quads"].as_u64().unwrap() as usize, quads.cells().len());
     let text = String::from_utf8_lossy(&sandbox.read("out/hexes.vtu")).into_owned();
@@ -55,6 +56,15 @@ fn a_surface_alone_has_no_hexahedra() {
         ["layout.obj", "polycube.labels", "polycube.obj", "quads.msh", "quads.obj", "quads.ply", "report.json"];
     assert_eq!(sandbox.names("out"), expected);
     assert_eq!(sandbox.json("out/report.json")["hexes"], 0);
+    let plain = mesh::read(&sandbox.path("out/quads.obj")).unwrap();
+    sandbox.ok(&format!("{line} --uv"));
+    assert_eq!(mesh::read(&sandbox.path("out/quads.obj")).unwrap(), plain);
+    let text = String::from_utf8(sandbox.read("out/quads.obj")).unwrap();
+    let corners: Vec<&str> =
+        text.lines().filter_map(|line| line.strip_prefix("f ")).flat_map(str::split_whitespace).collect();
+    let numbers: Vec<usize> = corners.iter().map(|word| word.split_once('/').unwrap().1.parse().unwrap()).collect();
+    assert!(numbers.iter().copied().eq(1..=4 * plain.cells().len()));
+    assert_eq!(text.lines().filter(|line| line.starts_with("vt ")).count(), numbers.len());
 }
 
 #[test]

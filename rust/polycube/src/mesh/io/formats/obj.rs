@@ -124,14 +124,29 @@ fn continues(text: &[u8]) -> bool {
     text.trim_ascii_end().ends_with(b"\\") && !text.contains(&b'#')
 }
 
-/// Writes a surface.
-pub(super) fn write(mesh: &Mesh) -> Vec<u8> {
+/// Writes a surface, with texture coordinates of the corners of each cell if there are any.
+pub(in crate::mesh::io) fn write(mesh: &Mesh, uv: &[[[f64; 2]; 4]]) -> Vec<u8> {
     let mut text = Text::default();
     for point in mesh.points() {
         text.put("v ").point(point).end();
     }
+    for [u, v] in uv.iter().flatten() {
+        text.put("vt ").float(*u).put(' ').float(*v).end();
+    }
     for i in 0..mesh.cells().len() {
-        text.put('f').indices(mesh.cells().cell(i), 1).end();
+        text.put('f');
+        match uv {
+            [] => text.indices(mesh.cells().cell(i), 1).end(),
+            _ => textured(&mut text, mesh.cells().cell(i), 4 * i as u64 + 1),
+        }
     }
     text.into_bytes()
+}
+
+/// The corners of a face, whose texture coordinates are listed from number `first` on.
+fn textured(text: &mut Text, corners: &[u32], first: u64) {
+    for (&corner, at) in corners.iter().zip(first..) {
+        text.put(' ').put(u64::from(corner) + 1).put('/').put(at);
+    }
+    text.end();
 }
