@@ -31,7 +31,7 @@ Layout layout(const bridge::LayoutData& data) {
 
 QuadMesh quads(const bridge::QuadsData& data) {
     return {internal::mesh(data.mesh), internal::vector(data.label), internal::vector(data.patch_id),
-            internal::vector(data.block_id)};
+            internal::vector(data.block_id), internal::vector(data.uv)};
 }
 
 HexMesh hexes(const bridge::HexesData& data) {
@@ -101,6 +101,12 @@ void write_solver(const std::string& path, const HexMesh& hexes, const std::stri
     internal::call([&] {
         bridge::write_solver(internal::text(path), internal::view(hexes.mesh), internal::slice(hexes.block_id),
                              internal::slice(boundary), internal::text(groups));
+    });
+}
+
+void write_textured(const std::string& path, const QuadMesh& quads) {
+    internal::call([&] {
+        bridge::write_textured(internal::text(path), internal::view(quads.mesh), internal::slice(quads.uv));
     });
 }
 

@@ -84,7 +84,7 @@ TEST_CASE("remesh writes what the command writes") {
     }
 }
 
-TEST_CASE("groups of faces are written as the command writes them") {
+TEST_CASE("groups of faces and texture coordinates are written as the command writes them") {
     const Folder folder("groups");
     const auto& [polycube, shape] = pair();
     polycube::write_mesh(folder / "p.off", polycube);
@@ -93,7 +93,7 @@ TEST_CASE("groups of faces are written as the command writes them") {
     polycube::write_mesh(folder / "s.vtk", shape, {{"part", part}});
     polycube::write_mesh(folder / "s.off", shape);
     run("remesh " + (folder / "s.off") + " --polycube " + (folder / "p.off") + " --hexes 1500 --max-hausdorff 100" +
-        " --format msh --format su2 --groups " + (folder / "s.vtk") + " -q -o " + (folder / "out"));
+        " --uv --format msh --format su2 --groups " + (folder / "s.vtk") + " -q -o " + (folder / "out"));
     polycube::RemeshOptions options = coarse();
     options.simplify = {};
     options.max_hausdorff = 1.0;
@@ -102,5 +102,7 @@ TEST_CASE("groups of faces are written as the command writes them") {
         polycube::write_solver(folder / file, *result.hexes, folder / "s.vtk");
         same(folder / file, folder / (std::string("out/") + file));
     }
+    polycube::write_textured(folder / "quads.obj", result.quads);
+    same(folder / "quads.obj", folder / "out/quads.obj");
     CHECK_THROWS_AS(polycube::write_solver(folder / "no.msh", *result.hexes, folder / "s.off"), polycube::Error);
 }

@@ -47,6 +47,8 @@ struct QuadMesh {
     std::vector<std::int8_t> label;       ///< 0 to 5 for +X -X +Y -Y +Z -Z.
     std::vector<std::uint32_t> patch_id;  ///< The patch, from 0: a cell of `Layout::patches`.
     std::vector<std::uint32_t> block_id;  ///< The padding block below it in the padded base complex.
+    /// u and v, 0 to 1, of each of its four corners: every patch is a rectangle of equal squares; none touch.
+    std::vector<double> uv;
 
     /// label, patch_id, block_id for `write_mesh`, as the command writes them.
     std::vector<CellField> fields() const;
@@ -165,5 +167,10 @@ Remeshed remesh(const Mesh& shape, const RemeshOptions& options = {}, const Cont
 /// boundary is not that of the mesh, blocks are no boxes, or a face of one is in two groups), parse (no groups in the
 /// file).
 void write_solver(const std::string& path, const HexMesh& hexes, const std::string& groups = {});
+
+/// Writes quadrilaterals as OBJ with their texture coordinates `uv`, whole or not at all.
+///
+/// @throws Error io, mismatch (not eight numbers in `uv` for each quadrilateral), unsupported (other cells).
+void write_textured(const std::string& path, const QuadMesh& quads);
 
 }  // namespace polycube

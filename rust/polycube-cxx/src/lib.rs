@@ -22,7 +22,7 @@ use buffers::{
 use buffers::{example_names, read_labels, write_labels};
 use checking::check;
 use making::{default_make_options, make};
-use meshing::{default_remesh_options, remesh, remesh_shape, write_solver};
+use meshing::{default_remesh_options, remesh, remesh_shape, write_solver, write_textured};
 use options::default_options;
 use results::{Simplified, corner_pairs, panic_in_core, simplify};
 
@@ -233,6 +233,7 @@ mod ffi {
         label: Vec<i8>,
         patch_id: Vec<u32>,
         block_id: Vec<u32>,
+        uv: Vec<f64>,
     }
 
     struct BoundaryFaceData {
@@ -403,6 +404,7 @@ mod ffi {
             boundary: &[BoundaryFaceData],
             groups: &str,
         ) -> Result<()>;
+        fn write_textured(path: &str, mesh: &MeshView, uv: &[f64]) -> Result<()>;
         fn boundary(mesh: &MeshView) -> Result<MeshData>;
         fn scaled_jacobians(mesh: &MeshView) -> Result<Vec<f64>>;
         fn example_names() -> Vec<String>;

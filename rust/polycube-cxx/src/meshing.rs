@@ -84,8 +84,10 @@ impl From<&Layout> for LayoutData {
 }
 
 impl From<Quads> for QuadsData {
-    fn from(Quads { mesh, label, patch_id, block_id, .. }: Quads) -> Self {
-        Self { mesh: (&mesh).into(), label, patch_id, block_id }
+    fn from(quads: Quads) -> Self {
+        let uv = quads.uv().into_flattened().into_flattened();
+        let Quads { mesh, label, patch_id, block_id, .. } = quads;
+        Self { mesh: (&mesh).into(), label, patch_id, block_id, uv }
     }
 }
 
@@ -134,6 +136,19 @@ pub fn write_solver(
         let surface = mesh::read_grouped_surface(Path::new(groups))?;
         let patches = core::carry_groups(&surface, &hexes, &boundary)?;
         mesh::write_solver(Path::new(path), &core::grouped_by(&hexes, block_id, &boundary, patches)?)
+    })
+}
+
+/// See `polycube::mesh::write_textured_bytes`: u and v of each corner.
+pub fn write_textured(path: &str, view: &MeshView, uv: &[f64]) -> Result<()> {
+    guard(|| {
+        let (corners, rest) = uv.as_chunks::<2>();
+        let (quads, few) = corners.as_chunks::<4>();
+        if !rest.is_empty() || !few.is_empty() {
+            let message = format!("{} texture coordinates are not two for each corner", uv.len());
+            return Err(Error::new(ErrorKind::Mismatch, message).remedy("give eight for each quadrilateral"));
+        }
+        mesh::write_atomically(Path::new(path), &mesh::write_textured_bytes(&owned(view)?, quads)?)
     })
 }
 

@@ -1,10 +1,11 @@
 //! The quadrilaterals of a meshed shape.
 
 use crate::arrays::{self, flat, matrix, vector};
+use crate::errors;
 use crate::mesh::PyMesh;
 use crate::pickle::{self, Reduced};
 use crate::report;
-use polycube::mesh::{CellField, Point};
+use polycube::mesh::{CellField, Point, write_atomically, write_textured_bytes};
 use polycube::remesh::Quads;
 use pyo3::prelude::*;
 use pyo3::types::PyTuple;
@@ -25,13 +26,14 @@ struct QuadParts {
     block_id: Vec<u32>,
     scaled_jacobian: Vec<f64>,
     feature_edges: Vec<u32>,
+    uv: Vec<[[f64; 2]; 4]>,
 }
 
 impl From<Quads> for PyQuads {
     fn from(quads: Quads) -> Self {
         let feature_edges = quads.feature_edges().into_flattened();
         let fields = quads.fields();
-        let scaled_jacobian = quads.quality().of_cell;
+        let (scaled_jacobian, uv) = (quads.quality().of_cell, quads.uv());
         let Quads { mesh, polycube, label, patch_id, block_id, .. } = quads;
         Self(Arc::new(QuadParts {
             mesh: mesh.into(),
@@ -42,6 +44,7 @@ impl From<Quads> for PyQuads {
             block_id,
             scaled_jacobian,
             feature_edges,
+            uv,
         }))
     }
 }
@@ -113,9 +116,34 @@ impl PyQuads {
         matrix(slf, 2, |q| &q.0.feature_edges)
     }
 
+    /// Texture coordinates of the corners of every quadrilateral: (4 m, 2) float64, four rows for each in the order of
+    /// `cells`, 0 to 1. Every patch is a rectangle of equal squares, counter-clockwise from outside; none touch.
+    #[getter]
+    fn uv<'py>(slf: &Bound<'py, Self>) -> PyResult<Bound<'py, PyAny>> {
+        matrix(slf, 2, |q| q.0.uv.as_flattened().as_flattened())
+    }
+
     /// Writes the mesh with `label`, `patch_id` and `block_id`, where the format holds them; see `Mesh.write`.
-    fn write(&self, py: Python<'_>, path: PathBuf) -> PyResult<()> {
-        self.0.mesh.save(py, &path, &self.0.fields)
+    ///
+    /// Args:
+    ///     path: the file.
+    ///     uv: with the texture coordinates `uv`; only for OBJ.
+    ///
+    /// Raises:
+    ///     FileError: the file cannot be written.
+    ///     Unsupported: the format is unknown.
+    ///     InvalidOption: `uv` with another format than OBJ.
+    #[pyo3(signature = (path, uv=false))]
+    fn write(&self, py: Python<'_>, path: PathBuf, uv: bool) -> PyResult<()> {
+        let QuadParts { mesh, fields, uv: all, .. } = &*self.0;
+        if !uv {
+            return mesh.save(py, &path, fields);
+        }
+        if !path.extension().is_some_and(|extension| extension.eq_ignore_ascii_case("obj")) {
+            return Err(errors::option(py, "uv goes to OBJ files alone", "name the file .obj"));
+        }
+        let write = || write_atomically(&path, &write_textured_bytes(&mesh.0, all)?);
+        py.detach(write).map_err(|e| errors::about(py, &e, Some(&mesh.0)))
     }
 
     /// The number of quadrilaterals.

@@ -144,6 +144,24 @@ def test_hexahedra_are_written_where_one_says(tmp_path, meshes):
     assert not (tmp_path / "none.msh").exists()
 
 
+def test_texture_coordinates(tmp_path, command, surfaces):
+    files = tmp_path / "shape.off", tmp_path / "polycube.off"
+    for mesh, path in zip(surfaces, files):
+        mesh.write(path)
+    command("remesh", files[0], "--polycube", files[1], "-o", tmp_path / "out", "--hexes", 1500, "--max-hausdorff", 5,
+            "--surface-only", "--uv")
+    quads = polycube.remesh(*surfaces, hexes=1500, max_hausdorff=5, surface_only=True).quads
+    quads.write(tmp_path / "quads.obj", uv=True)
+    assert (tmp_path / "quads.obj").read_bytes() == (tmp_path / "out" / "quads.obj").read_bytes()
+    corners = quads.uv.reshape(-1, 4, 2)
+    assert len(corners) == len(quads.cells) and (0 < corners).all() and (corners < 1).all()
+    first, last = corners[:, 1] - corners[:, 0], corners[:, 3] - corners[:, 0]
+    areas = first[:, 0] * last[:, 1] - first[:, 1] * last[:, 0]
+    assert areas.min() > 0 and np.allclose(areas, areas[0])
+    with pytest.raises(polycube.InvalidOption):
+        quads.write(tmp_path / "quads.off", uv=True)
+
+
 def test_groups_of_faces(tmp_path, command, pair, meshes):
     files = tmp_path / "shape.mesh", tmp_path / "polycube.mesh"
     for mesh, path in zip(pair, files):

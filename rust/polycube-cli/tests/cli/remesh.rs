@@ -40,6 +40,7 @@ fn all_files_are_there_and_read_back() {
         assert!(cell_qualities(&mesh).unwrap().iter().all(|q| q.1 > 0.0), "{file}");
     }
     let quads = mesh::read(&sandbox.path("out/quads.obj")).unwrap();
+    assert!(!String::from_utf8_lossy(&sandbox.read("out/quads.obj")).contains("vt "));
     assert!(matches!(quads.cells(), Cells::Quads(_)));
     assert_eq!(report["quads"].as_u64().unwrap() as usize, quads.cells().len());
     let text = String::from_utf8_lossy(&sandbox.read("out/hexes.vtu")).into_owned();
@@ -55,6 +56,20 @@ fn a_surface_alone_has_no_hexahedra() {
         ["layout.obj", "polycube.labels", "polycube.obj", "quads.msh", "quads.obj", "quads.ply", "report.json"];
     assert_eq!(sandbox.names("out"), expected);
     assert_eq!(sandbox.json("out/report.json")["hexes"], 0);
+    let plain = mesh::read(&sandbox.path("out/quads.obj")).unwrap();
+    sandbox.ok(&format!("{line} --uv"));
+    assert_eq!(mesh::read(&sandbox.path("out/quads.obj")).unwrap(), plain);
+    let text = String::from_utf8(sandbox.read("out/quads.obj")).unwrap();
+    let corners: Vec<&str> =
+        text.lines().filter_map(|line| line.strip_prefix("f ")).flat_map(str::split_whitespace).collect();
+    let numbers: Vec<usize> = corners.iter().map(|word| word.split_once('/').unwrap().1.parse().unwrap()).collect();
+    assert_eq!(numbers.len(), 4 * plain.cells().len());
+    // A place for each vertex in each chart, in the order in which faces name them.
+    let count = text.lines().filter(|line| line.starts_with("vt ")).count();
+    let mut last = 0;
+    numbers.iter().for_each(|&n| if n == last + 1 { last = n } else { assert!(n >= 1 && n <= last) });
+    assert_eq!(last, count);
+    assert!(count >= plain.points().len() && count < numbers.len());
 }
 
 #[test]

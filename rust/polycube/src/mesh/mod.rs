@@ -21,7 +21,7 @@ pub use hexahedron::HexFace;
 pub use io::{
     CellField, FieldValues, Format, LabelOrder, SolverFormat, Staged, parse_labels, read, read_bytes,
     read_grouped_surface, read_labels, read_labels_of, read_pair, write, write_atomically, write_bytes, write_labels,
-    write_solver, write_solver_bytes,
+    write_solver, write_solver_bytes, write_textured_bytes,
 };
 pub use simplices::{Face, Simplices};
 pub(crate) use stars::Stars;

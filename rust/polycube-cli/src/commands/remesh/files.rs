@@ -5,7 +5,8 @@ use crate::input::meshes::MeshFiles;
 use crate::options::format::{OutputFormat, solver_formats};
 use crate::output::colour;
 use polycube::mesh::{
-    CellField, CellKind, Format, GroupedSurface, Mesh, SolverFormat, read_grouped_surface, write_solver_bytes,
+    CellField, CellKind, Format, GroupedSurface, Mesh, SolverFormat, read_grouped_surface, write_bytes,
+    write_solver_bytes, write_textured_bytes,
 };
 use polycube::remesh::Remeshed;
 use polycube::{Error, ErrorKind};
@@ -103,15 +104,30 @@ pub struct File<'a> {
     pub mesh: &'a Mesh,
     /// What is told of each cell.
     pub fields: Vec<CellField>,
+    /// Texture coordinates of each cell, or none.
+    pub uv: Vec<[[f64; 2]; 4]>,
 }
 
-/// All meshes of a result, each in every format that it is written in.
-pub fn files<'a>(result: &'a Remeshed, formats: &Formats) -> Vec<File<'a>> {
-    let file = |name, format, mesh, fields| File { name, format, mesh, fields };
-    let mut files = vec![
-        file("layout", Format::Obj, &result.layout.patches, Vec::new()),
-        file("quads", Format::Obj, &result.quads.mesh, Vec::new()),
-    ];
+impl File<'_> {
+    /// The bytes of the file.
+    ///
+    /// # Errors
+    /// Those of [`write_bytes`].
+    pub fn bytes(&self) -> polycube::Result<Vec<u8>> {
+        match self.uv[..] {
+            [] => write_bytes(self.format, self.mesh, &self.fields),
+            _ => write_textured_bytes(self.mesh, &self.uv),
+        }
+    }
+}
+
+/// All meshes of a result, each in every format that it is written in; `quads.obj` with texture coordinates if asked
+/// for.
+pub fn files<'a>(result: &'a Remeshed, formats: &Formats, with_uv: bool) -> Vec<File<'a>> {
+    let file = |name, format, mesh, fields| File { name, format, mesh, fields, uv: Vec::new() };
+    let quads = file("quads", Format::Obj, &result.quads.mesh, Vec::new());
+    let uv = if with_uv { result.quads.uv() } else { Vec::new() };
+    let mut files = vec![file("layout", Format::Obj, &result.layout.patches, Vec::new()), File { uv, ..quads }];
     if let Some(mesh) = &result.simplified.polycube {
         files.push(file("polycube", formats.polycube, mesh, Vec::new()));
     }

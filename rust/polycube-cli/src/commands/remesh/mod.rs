@@ -21,7 +21,6 @@ use clap::ValueHint;
 use files::{Formats, MESHES, all_solver_files, files, solver_files};
 use polycube::Context;
 use polycube::make;
-use polycube::mesh;
 use polycube::remesh::{RemeshOptions, Remeshed, remesh};
 use polycube::simplify::SimplifyOptions;
 use std::path::{Path, PathBuf};
@@ -129,6 +128,10 @@ pub struct Args {
     #[arg(long, value_name = "FILE", value_hint = ValueHint::FilePath)]
     pub groups: Option<PathBuf>,
 
+    /// Write texture coordinates to quads.obj: a chart of equal squares for each patch of the layout, 0 to 1
+    #[arg(long)]
+    pub uv: bool,
+
     /// Whether it is silent.
     #[command(flatten)]
     pub quiet: QuietArg,
@@ -227,11 +230,11 @@ fn write(
     elapsed: impl Fn() -> f64,
 ) -> Result<()> {
     let mut output = Output::new(&args.output.folder)?;
-    let files = files(result, formats);
+    let files = files(result, formats, args.uv);
     for (i, file) in files.iter().enumerate() {
         context.tick(i as f64 / files.len() as f64)?;
         let name = format!("{}.{}", file.name, file.format);
-        output.add(&name, &mesh::write_bytes(file.format, file.mesh, &file.fields)?)?;
+        output.add(&name, &file.bytes()?)?;
     }
     let labels: String = result.simplified.input.labels().map(|l| format!("{}\n", l.index())).collect();
     output.add(LABELS, labels.as_bytes())?;

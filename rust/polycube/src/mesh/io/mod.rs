@@ -31,7 +31,7 @@ pub use painted::read_grouped_surface;
 pub use pair::read_pair;
 pub use solver::{SolverFormat, write_solver, write_solver_bytes};
 
-use super::Mesh;
+use super::{CellKind, Mesh};
 use crate::error::{Error, ErrorKind, Result};
 use std::path::Path;
 
@@ -140,4 +140,24 @@ pub fn write_bytes(format: Format, mesh: &Mesh, fields: &[CellField]) -> Result<
     }
     field::check_fields(fields, mesh.cells().len())?;
     formats::write(format, mesh, fields)
+}
+
+/// The bytes of an OBJ file of quadrilaterals with texture coordinates of the corners of each, in their order.
+///
+/// # Errors
+/// [`ErrorKind::Unsupported`] for other cells; [`ErrorKind::Mesh`] for none; [`ErrorKind::Mismatch`] unless there are
+/// coordinates for each.
+pub fn write_textured_bytes(mesh: &Mesh, uv: &[[[f64; 2]; 4]]) -> Result<Vec<u8>> {
+    if mesh.cells().kind() != CellKind::Quads {
+        let message = format!("{} have no texture coordinates here", mesh.cells().kind());
+        return Err(Error::new(ErrorKind::Unsupported, message).remedy("give quadrilaterals"));
+    }
+    if mesh.cells().is_empty() {
+        return Err(Error::new(ErrorKind::Mesh, "a mesh without cells cannot be written"));
+    }
+    if uv.len() != mesh.cells().len() {
+        let message = format!("texture coordinates of {} of {} quadrilaterals", uv.len(), mesh.cells().len());
+        return Err(Error::new(ErrorKind::Mismatch, message).remedy("give four for each"));
+    }
+    Ok(formats::obj::write(mesh, uv))
 }

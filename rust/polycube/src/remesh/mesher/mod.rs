@@ -7,6 +7,7 @@ mod hexes;
 mod layout;
 mod quads;
 mod remesher;
+mod uv;
 
 pub use carried::carry_groups;
 pub use groups::{grouped, grouped_by};

@@ -6,6 +6,7 @@ mod on_real_data;
 mod pipeline;
 mod quality;
 mod surface;
+mod uv;
 
 use super::Hexes;
 use super::lattice::scale_for;

@@ -4,7 +4,7 @@ mod abaqus;
 mod gmsh;
 mod medit;
 mod meshb;
-mod obj;
+pub(super) mod obj;
 mod off;
 mod ply;
 pub(super) mod stl;
@@ -60,7 +60,7 @@ fn with_line_feeds(text: &[u8]) -> Cow<'_, [u8]> {
 /// The bytes of a file; the format must be able to hold the mesh.
 pub(super) fn write(format: Format, mesh: &Mesh, fields: &[CellField]) -> Result<Vec<u8>> {
     match format {
-        Format::Obj => Ok(obj::write(mesh)),
+        Format::Obj => Ok(obj::write(mesh, &[])),
         Format::Off => Ok(off::write(mesh)),
         Format::Ply => Ok(ply::write(mesh, fields)),
         Format::Stl => stl::write(mesh),

@@ -5,6 +5,7 @@ use crate::mesh::io::scan::{Scanner, number, number_in, quoted, without_mark};
 use crate::mesh::io::soup::Soup;
 use crate::mesh::io::text::Text;
 use crate::mesh::{Mesh, Point};
+use std::collections::BTreeMap;
 
 /// Reads a mesh; vertices are neither merged nor dropped.
 pub(super) fn read(bytes: &[u8]) -> Result<Soup> {
@@ -124,14 +125,42 @@ fn continues(text: &[u8]) -> bool {
     text.trim_ascii_end().ends_with(b"\\") && !text.contains(&b'#')
 }
 
-/// Writes a surface.
-pub(super) fn write(mesh: &Mesh) -> Vec<u8> {
+/// Writes a surface, with texture coordinates of the corners of each cell if there are any.
+pub(in crate::mesh::io) fn write(mesh: &Mesh, uv: &[[[f64; 2]; 4]]) -> Vec<u8> {
     let mut text = Text::default();
     for point in mesh.points() {
         text.put("v ").point(point).end();
     }
+    let places = placed(mesh, uv, &mut text);
     for i in 0..mesh.cells().len() {
-        text.put('f').indices(mesh.cells().cell(i), 1).end();
+        text.put('f');
+        match uv {
+            [] => text.indices(mesh.cells().cell(i), 1).end(),
+            _ => textured(&mut text, mesh.cells().cell(i), &places[4 * i..]),
+        }
     }
     text.into_bytes()
+}
+
+/// Lists the texture coordinates, those that corners at one vertex have in common once, and gives the number of each
+/// corner's: readers cut a mesh open where these differ.
+fn placed(mesh: &Mesh, uv: &[[[f64; 2]; 4]], text: &mut Text) -> Vec<u64> {
+    let corners = uv.iter().enumerate().flat_map(|(i, uv)| mesh.cells().cell(i).iter().zip(uv));
+    let mut known = BTreeMap::new();
+    let mut number = |(&vertex, &[u, v]): (&u32, &[f64; 2])| {
+        let next = known.len() as u64 + 1;
+        *known.entry((vertex, u.to_bits(), v.to_bits())).or_insert_with(|| {
+            text.put("vt ").float(u).put(' ').float(v).end();
+            next
+        })
+    };
+    corners.map(&mut number).collect()
+}
+
+/// The corners of a face with the numbers of their texture coordinates.
+fn textured(text: &mut Text, corners: &[u32], places: &[u64]) {
+    for (&corner, &at) in corners.iter().zip(places) {
+        text.put(' ').put(u64::from(corner) + 1).put('/').put(at);
+    }
+    text.end();
 }
