@@ -38,7 +38,7 @@ fn check_cells(cells: &Cells) -> Result<(), Vec<Violation>> {
         let all = corners.len();
         corners.sort_unstable();
         corners.dedup();
-        (corners.len() < all).then(|| Violation::CollapsedCell { cell: cell as u32, corners: corners.len() })
+        (corners.len() < all).then_some(Violation::CollapsedCell { cell: cell as u32, corners: corners.len() })
     };
     let found: Vec<Violation> = (0..cells.len()).filter_map(collapsed).collect();
     if found.is_empty() { Ok(()) } else { Err(found) }
