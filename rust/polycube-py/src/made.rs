@@ -8,7 +8,7 @@ use crate::report::{self, to_dict};
 use crate::simplified::Source;
 use crate::work::{Failure, Listener};
 use polycube::Context;
-use polycube::make::{Made, MakeReport, make as run};
+use polycube::make::{Made, MakeOptions, MakeReport, make as run};
 use pyo3::prelude::*;
 use pyo3::types::{PyDict, PyTuple};
 use std::sync::Arc;
@@ -155,7 +155,7 @@ pub fn task(
     options: Option<&Bound<'_, PyDict>>,
 ) -> PyResult<impl FnOnce(&Context) -> Result<PyMade, Failure> + Send + 'static> {
     let keywords = Keywords::new(py, "make", options)?;
-    let options = keywords.make(keywords.no_repair()?)?;
+    let options = MakeOptions { no_repair: keywords.no_repair()?, ..keywords.make()? };
     keywords.finish()?;
     let shape = Arc::clone(&shape.0);
     Ok(move |context: &Context| run(&shape, &options, context).map(PyMade::from).map_err(|e| Failure::new(e, &shape)))

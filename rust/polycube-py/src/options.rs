@@ -114,15 +114,15 @@ impl<'py> Keywords<'py> {
     }
 
     /// Takes how a polycube is made of a shape, all but whether that is repaired.
-    pub fn make(&self, no_repair: bool) -> PyResult<MakeOptions> {
+    pub fn make(&self) -> PyResult<MakeOptions> {
         if let Some(labels) = self.labels()? {
             let reason = "the labels say which facets there are";
             self.refuse(&["detail", "corners", "axes"], reason, "leave it out, or the labels")?;
-            return Ok(MakeOptions { labels: Some(labels), no_repair, ..MakeOptions::default() });
+            return Ok(MakeOptions { labels: Some(labels), ..MakeOptions::default() });
         }
         let detail = self.take("detail")?.unwrap_or(MakeOptions::default().detail);
         let axes = self.word("axes", &[("keep", Axes::Keep), ("best", Axes::Best)])?.unwrap_or_default();
-        let options = MakeOptions { detail, corners: self.whole("corners")?, axes, labels: None, no_repair };
+        let options = MakeOptions { detail, corners: self.whole("corners")?, axes, ..MakeOptions::default() };
         options.check().map_err(|e| errors::raise(self.py(), &e, None))?;
         Ok(options)
     }

@@ -131,12 +131,12 @@ enum Start {
 }
 
 impl Start {
-    fn new(shape: &PyMesh, polycube: Option<&PyMesh>, no_repair: bool, keywords: &Keywords<'_>) -> PyResult<Self> {
+    fn new(shape: &PyMesh, polycube: Option<&PyMesh>, keywords: &Keywords<'_>) -> PyResult<Self> {
         if let Some(polycube) = polycube {
             keywords.refuse(&["detail", "corners", "axes"], "a polycube is given", "leave it out, or the polycube")?;
             return Ok(Self::Pair(Source::new(polycube, Some(shape), keywords)?));
         }
-        Ok(Self::Shape(Arc::clone(&shape.0), keywords.make(no_repair)?))
+        Ok(Self::Shape(Arc::clone(&shape.0), keywords.make()?))
     }
 
     fn remesh(self, options: &RemeshOptions, context: &Context) -> Result<PyRemeshed, Failure> {
@@ -146,6 +146,7 @@ impl Start {
                 Ok(PyRemeshed::new(result, source, None))
             }
             Self::Shape(shape, making) => {
+                let making = MakeOptions { no_repair: options.simplify.no_repair, ..making };
                 let (made, result) =
                     make::remesh(&shape, &making, options, context).map_err(|e| Failure::new(e, &shape))?;
                 let made = PyMade::from(made);
@@ -226,10 +227,8 @@ pub fn task(
     options: Option<&Bound<'_, PyDict>>,
 ) -> PyResult<impl FnOnce(&Context) -> Result<PyRemeshed, Failure> + Send + 'static> {
     let keywords = Keywords::new(py, "remesh", options)?;
-    let no_repair = keywords.no_repair()?;
-    let start = Start::new(shape, polycube, no_repair, &keywords)?;
-    let mut options = keywords.remesh()?;
-    options.simplify.no_repair = no_repair;
+    let start = Start::new(shape, polycube, &keywords)?;
+    let options = keywords.remesh()?;
     keywords.finish()?;
     Ok(move |context: &Context| start.remesh(&options, context))
 }

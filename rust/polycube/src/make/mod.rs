@@ -79,8 +79,10 @@ impl MakeOptions {
 
     /// The shape and its labels after repairs, where there is something to repair and that is wanted.
     fn repaired(&self, shape: &Mesh) -> Option<Repaired> {
-        let is_wanted = !self.no_repair && !shape.cells().is_volume();
-        is_wanted.then(|| repair(&Input { polycube: shape, shape: None, labels: self.labels.as_deref() }))?
+        if self.no_repair || shape.cells().is_volume() {
+            return None;
+        }
+        repair(&Input { polycube: shape, shape: None, labels: self.labels.as_deref() })
     }
 
     fn for_loops(&self) -> LoopOptions {

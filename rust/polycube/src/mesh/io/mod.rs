@@ -135,9 +135,7 @@ pub fn write(path: &Path, mesh: &Mesh, fields: &[CellField]) -> Result<()> {
 /// characters than letters, digits and `_ - . :`.
 pub fn write_bytes(format: Format, mesh: &Mesh, fields: &[CellField]) -> Result<Vec<u8>> {
     format.require(mesh.cells().kind())?;
-    if mesh.cells().is_empty() {
-        return Err(Error::new(ErrorKind::Mesh, "a mesh without cells cannot be written"));
-    }
+    require_cells(mesh)?;
     field::check_fields(fields, mesh.cells().len())?;
     formats::write(format, mesh, fields)
 }
@@ -152,12 +150,17 @@ pub fn write_textured_bytes(mesh: &Mesh, uv: &[[[f64; 2]; 4]]) -> Result<Vec<u8>
         let message = format!("{} have no texture coordinates here", mesh.cells().kind());
         return Err(Error::new(ErrorKind::Unsupported, message).remedy("give quadrilaterals"));
     }
-    if mesh.cells().is_empty() {
-        return Err(Error::new(ErrorKind::Mesh, "a mesh without cells cannot be written"));
-    }
+    require_cells(mesh)?;
     if uv.len() != mesh.cells().len() {
         let message = format!("texture coordinates of {} of {} quadrilaterals", uv.len(), mesh.cells().len());
         return Err(Error::new(ErrorKind::Mismatch, message).remedy("give four for each"));
     }
     Ok(formats::obj::write(mesh, uv))
+}
+
+fn require_cells(mesh: &Mesh) -> Result<()> {
+    if mesh.cells().is_empty() {
+        return Err(Error::new(ErrorKind::Mesh, "a mesh without cells cannot be written"));
+    }
+    Ok(())
 }

@@ -30,7 +30,7 @@ pub fn carry_groups(surface: &GroupedSurface, mesh: &Mesh, boundary: &[BoundaryF
         let message = format!("there is no face {} of hexahedron {}", face.face, face.cell);
         return Err(Error::new(ErrorKind::Mismatch, message).remedy("give the boundary of the mesh"));
     }
-    let (triangles, names) = (triangles(surface), surface.groups().names());
+    let (triangles, names) = (triangles(surface)?, surface.groups().names());
     let index = Nearest::new(triangles.iter().map(|(at, _)| *at));
     let of_face = |side: &BoundaryFace| {
         let corners = side.face.vertices(cells).map(|v| mesh.points()[v as usize]);
@@ -41,15 +41,11 @@ pub fn carry_groups(surface: &GroupedSurface, mesh: &Mesh, boundary: &[BoundaryF
 }
 
 /// A surface as triangles with their groups.
-fn triangles(surface: &GroupedSurface) -> Vec<([Point; 3], u32)> {
+fn triangles(surface: &GroupedSurface) -> Result<Vec<([Point; 3], u32)>> {
     let at = |v: u32| surface.mesh().points()[v as usize];
-    let cut = |i: usize| match *surface.mesh().cells().cell(i) {
-        [a, b, c, d] => vec![[a, b, c], [a, c, d]],
-        [a, b, c] => vec![[a, b, c]],
-        _ => Vec::new(),
-    };
-    let of = |i: usize| cut(i).into_iter().map(move |corners| (corners.map(at), surface.groups().of()[i]));
-    (0..surface.mesh().cells().len()).flat_map(of).collect()
+    let faces = surface.mesh().cells().boundary()?;
+    let grouped = faces.iter().zip(surface.groups().of());
+    Ok(grouped.flat_map(|(face, &group)| face.triangles().map(move |corners| (corners.map(at), group))).collect())
 }
 
 /// The groups that a quadrilateral lies on, ascending, with the area that it has on each.
